@@ -178,8 +178,8 @@ class Elasticity final : public TriangulationSolver<dim> {
     space_ = std::make_unique<LagrangeSpace<dim>>(triangulation, degree, dim,
                                                   static_cast<unsigned int>(points_), this->ties());
     const auto constraints = boundary_values();
-    system_.reinit(*space_, constraints);
-    if (system_.n_free(constraints) == space_->dofs.n_dofs())
+    system_ = std::make_unique<SymmetricSystem>(*space_, constraints);
+    if (system_->n_free(constraints) == space_->dofs.n_dofs())
       throw InputError(
           "no part of the boundary is held in elasticity; name a group of it in a "
           "'displacement group', or take one out of 'natural'");
@@ -189,7 +189,7 @@ class Elasticity final : public TriangulationSolver<dim> {
     const auto constraints = boundary_values();
     assemble(constraints);
     SolverResult result{
-        .numbers = system_.solve(constraints, rigid_body_modes(constraints), cg_tolerance_)};
+        .numbers = system_->solve(constraints, rigid_body_modes(constraints), cg_tolerance_)};
     add_norms(result);
     result.numbers.push_back({"u_max", largest_displacement()});
     return result;
@@ -340,7 +340,7 @@ class Elasticity final : public TriangulationSolver<dim> {
   }
 
   void assemble(const dealii::AffineConstraints<double>& constraints) {
-    system_.assemble(
+    system_->assemble(
         *space_, constraints,
         [&](const dealii::FEValues<dim>& values, const auto& cell,
             dealii::FullMatrix<double>& cell_matrix, dealii::Vector<double>& cell_load) {
@@ -437,7 +437,7 @@ class Elasticity final : public TriangulationSolver<dim> {
       cell->get_dof_indices(indices);
       std::vector<double> squares(indices.size() / dim);  // of each support point
       for (unsigned int i = 0; i < indices.size(); ++i) {
-        const double u = system_.solution[indices[i]];
+        const double u = system_->solution[indices[i]];
         squares[element.system_to_component_index(i).second] += u * u;
       }
       most = std::max(most, *std::max_element(squares.begin(), squares.end()));
@@ -477,8 +477,8 @@ class Elasticity final : public TriangulationSolver<dim> {
       const Lame& c = material_of(cell);
       u_h.resize(values.n_quadrature_points);
       gradients.resize(values.n_quadrature_points);
-      values[displacement].get_function_values(system_.solution, u_h);
-      values[displacement].get_function_gradients(system_.solution, gradients);
+      values[displacement].get_function_values(system_->solution, u_h);
+      values[displacement].get_function_gradients(system_->solution, gradients);
       for (const unsigned int q : values.quadrature_point_indices()) {
         Tensor<dim> gradient;
         Eigen::Matrix<double, dim, 1> value;
@@ -534,7 +534,7 @@ class Elasticity final : public TriangulationSolver<dim> {
   std::vector<Id> natural_ids_;
   std::vector<OfId> displacement_ids_, traction_ids_;
   std::unique_ptr<LagrangeSpace<dim>> space_;
-  SymmetricSystem system_;
+  std::unique_ptr<SymmetricSystem> system_;
 };
 
 const RegisteredSolver registered_elasticity(

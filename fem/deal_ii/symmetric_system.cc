@@ -88,8 +88,8 @@ void set_up_multigrid(const dealii::TrilinosWrappers::SparseMatrix& matrix,
 }  // namespace
 
 template <int dim>
-void SymmetricSystem::reinit(const LagrangeSpace<dim>& space,
-                             const dealii::AffineConstraints<double>& constrained) {
+SymmetricSystem::SymmetricSystem(const LagrangeSpace<dim>& space,
+                                 const dealii::AffineConstraints<double>& constrained) {
   const auto& own = space.dofs.locally_owned_dofs();
   const auto& relevant = space.relevant_dofs;
   const MPI_Comm communicator = space.dofs.get_communicator();
@@ -102,7 +102,7 @@ void SymmetricSystem::reinit(const LagrangeSpace<dim>& space,
   solution.reinit(own, relevant, communicator);
 }
 
-void SymmetricSystem::take(const SparseMatrix& a, const Eigen::VectorXd& b) {
+SymmetricSystem::SymmetricSystem(const SparseMatrix& a, const Eigen::VectorXd& b) {
   const auto n = static_cast<unsigned int>(a.rows());
   const dealii::IndexSet all = dealii::complete_index_set(n);
   dealii::DynamicSparsityPattern pattern(n);
@@ -222,9 +222,9 @@ std::vector<NumberDescription> SymmetricSystem::descriptions() {
       {"amg_cg_seconds", "s", "Time of CG with multigrid."}};
 }
 
-template void SymmetricSystem::reinit(const LagrangeSpace<2>&,
-                                      const dealii::AffineConstraints<double>&);
-template void SymmetricSystem::reinit(const LagrangeSpace<3>&,
-                                      const dealii::AffineConstraints<double>&);
+template SymmetricSystem::SymmetricSystem(const LagrangeSpace<2>&,
+                                          const dealii::AffineConstraints<double>&);
+template SymmetricSystem::SymmetricSystem(const LagrangeSpace<3>&,
+                                          const dealii::AffineConstraints<double>&);
 
 }  // namespace smoothfem

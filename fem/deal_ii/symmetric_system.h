@@ -24,10 +24,14 @@ class SymmetricSystem {
   dealii::TrilinosWrappers::MPI::Vector right_hand_side;
   dealii::TrilinosWrappers::MPI::Vector solution;  ///< at the relevant dofs
 
-  /// constrained: the dofs that every later set of constraints constrains.
+  /// Makes the pattern; MPI must have been initialized. constrained: the dofs that every later set
+  /// of constraints constrains.
   template <int dim>
-  void reinit(const LagrangeSpace<dim>& space,
-              const dealii::AffineConstraints<double>& constrained);
+  SymmetricSystem(const LagrangeSpace<dim>& space,
+                  const dealii::AffineConstraints<double>& constrained);
+
+  /// Takes pattern and values of another program's matrix, and its right-hand side, on one rank.
+  SymmetricSystem(const SparseMatrix& a, const Eigen::VectorXd& b);
 
   /// Assembles matrix and right-hand side. integrate(values, cell, cell_matrix, cell_load) adds the
   /// integrals over a cell to zeros (see LagrangeSpace::for_each_cell).
@@ -52,9 +56,6 @@ class SymmetricSystem {
     matrix.compress(dealii::VectorOperation::add);
     right_hand_side.compress(dealii::VectorOperation::add);
   }
-
-  /// Takes pattern and values of another program's matrix, and its right-hand side. One rank.
-  void take(const SparseMatrix& a, const Eigen::VectorXd& b);
 
   /// Solves by CG without preconditioner, with Jacobi and with algebraic multigrid. The last
   /// solution counts. near_null_space: vectors that the matrix without boundary conditions takes to

@@ -133,7 +133,7 @@ class StudyRun {
 
   /// Throws InputError if a solver cannot be used on a mesh. One that fails on it gets rows with
   /// the reason later.
-  void require_support_of_solvers() const {
+  void require_support_of_solvers() {
     if constexpr (dim == spacedim)
       for (std::size_t m = 0; m < data_.meshes.size(); ++m)
         for (const StudySolve& solve : data_.solves) try {
