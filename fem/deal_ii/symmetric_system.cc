@@ -24,8 +24,6 @@ namespace smoothfem {
 
 namespace {
 
-using Vector = dealii::TrilinosWrappers::MPI::Vector;
-
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Matrices with more rows have an estimate of their condition number from CG. In space the factors
@@ -39,9 +37,9 @@ struct Run {
   double condition_number = unknown;  ///< estimate, slightly low
 };
 
-template <class Preconditioner>
-Run run_cg(const dealii::TrilinosWrappers::SparseMatrix& matrix, Vector& solution,
-           const Vector& right_hand_side, const Preconditioner& preconditioner, double tolerance) {
+template <class Matrix, class Vector, class Preconditioner>
+Run run_cg(const Matrix& matrix, Vector& solution, const Vector& right_hand_side,
+           const Preconditioner& preconditioner, double tolerance) {
   constexpr unsigned int iterations_per_row = 10;
   dealii::SolverControl control(iterations_per_row * matrix.m(),
                                 tolerance * right_hand_side.l2_norm());
@@ -61,6 +59,28 @@ Run run_cg(const dealii::TrilinosWrappers::SparseMatrix& matrix, Vector& solutio
   run.iterations = control.last_step();
   run.condition_number = estimate;
   return run;
+}
+
+/// The runs without preconditioner, with Jacobi and with multigrid.
+struct Runs {
+  Run plain, by_jacobi, by_multigrid;
+};
+
+/// The last solution counts.
+template <class Jacobi, class Matrix, class Vector>
+Runs run_all(const Matrix& matrix, Vector& solution, const Vector& right_hand_side,
+             const dealii::TrilinosWrappers::PreconditionAMG& multigrid, double tolerance) {
+  const auto run = [&](const auto& preconditioner) {
+    return run_cg(matrix, solution, right_hand_side, preconditioner, tolerance);
+  };
+  Jacobi jacobi;
+  jacobi.initialize(matrix);
+  const Runs runs{run(dealii::PreconditionIdentity()), run(jacobi), run(multigrid)};
+  const bool is_solved = !std::isnan(runs.by_multigrid.iterations);
+  if (!is_solved && std::isnan(runs.by_jacobi.iterations) && std::isnan(runs.plain.iterations))
+    throw SolverFailure("CG does not converge, with any preconditioner");
+  if (!is_solved) run(jacobi);
+  return runs;
 }
 
 /// Sets multigrid up, for a near null space of the user or, without one, the constants.
@@ -96,6 +116,7 @@ SymmetricSystem::SymmetricSystem(const LagrangeSpace<dim>& space,
   dealii::DynamicSparsityPattern pattern(relevant);
   dealii::DoFTools::make_sparsity_pattern(space.dofs, pattern, constrained, false);
   dealii::SparsityTools::distribute_sparsity_pattern(pattern, own, communicator, relevant);
+  if (Ranks(communicator).size() == 1) pattern_.copy_from(pattern);
   most_rows_to_factor_ = dim == 2 ? most_rows_in_plane : most_rows_in_space;
   matrix.reinit(own, own, pattern, communicator);
   right_hand_side.reinit(own, communicator);
@@ -110,6 +131,7 @@ SymmetricSystem::SymmetricSystem(const SparseMatrix& a, const Eigen::VectorXd& b
   for (int i = 0; i < a.rows(); ++i)
     for (SparseMatrix::InnerIterator entry(a, i); entry; ++entry)
       pattern.add(static_cast<unsigned int>(i), static_cast<unsigned int>(entry.col()));
+  pattern_.copy_from(pattern);
   matrix.reinit(all, all, pattern, MPI_COMM_SELF);
   for (int i = 0; i < a.rows(); ++i)
     for (SparseMatrix::InnerIterator entry(a, i); entry; ++entry)
@@ -129,35 +151,40 @@ std::vector<SolverNumber> SymmetricSystem::solve(
   const double condition = is_factored ? condition_number(constraints) : unknown;
   if (is_factored && std::isnan(condition) && n_free(constraints) > 0)
     throw SolverFailure("the matrix is not positive definite, which CG needs");
-  Vector u(right_hand_side);
-  const Run plain = run_cg(matrix, u, right_hand_side, dealii::PreconditionIdentity(), tolerance);
-  dealii::TrilinosWrappers::PreconditionJacobi jacobi;
-  jacobi.initialize(matrix);
-  const Run by_jacobi = run_cg(matrix, u, right_hand_side, jacobi, tolerance);
   dealii::TrilinosWrappers::PreconditionAMG multigrid;
   double setup = 0.0;
   {
     const ScopedTimer timer(setup);
     set_up_multigrid(matrix, near_null_space, multigrid);
   }
-  const Run by_multigrid = run_cg(matrix, u, right_hand_side, multigrid, tolerance);
-  const bool is_solved = !std::isnan(by_multigrid.iterations);
-  if (!is_solved && std::isnan(by_jacobi.iterations) && std::isnan(plain.iterations))
-    throw SolverFailure("CG does not converge, with any preconditioner");
-  if (!is_solved) run_cg(matrix, u, right_hand_side, jacobi, tolerance);
-  constraints.distribute(u);
-  solution = u;
+  Runs runs;
+  if (pattern_.empty()) {
+    dealii::TrilinosWrappers::MPI::Vector u(right_hand_side);
+    runs = run_all<dealii::TrilinosWrappers::PreconditionJacobi>(matrix, u, right_hand_side,
+                                                                 multigrid, tolerance);
+    constraints.distribute(u);
+    solution = u;
+  } else {
+    using Matrix = dealii::SparseMatrix<double>;
+    Matrix copy(pattern_);
+    copy.copy_from(matrix);
+    const dealii::Vector<double> b(right_hand_side);
+    dealii::Vector<double> u(b.size());
+    runs = run_all<dealii::PreconditionJacobi<Matrix>>(copy, u, b, multigrid, tolerance);
+    constraints.distribute(u);
+    solution = u;
+  }
   return {{"n_dofs", static_cast<double>(matrix.m())},
           {"n_free", static_cast<double>(n_free(constraints))},
-          {"condition_number", is_factored ? condition : plain.condition_number},
-          {"jacobi_condition_number", by_jacobi.condition_number},
-          {"cg_iterations", plain.iterations},
-          {"cg_seconds", plain.seconds},
-          {"jacobi_cg_iterations", by_jacobi.iterations},
-          {"jacobi_cg_seconds", by_jacobi.seconds},
-          {"amg_cg_iterations", by_multigrid.iterations},
+          {"condition_number", is_factored ? condition : runs.plain.condition_number},
+          {"jacobi_condition_number", runs.by_jacobi.condition_number},
+          {"cg_iterations", runs.plain.iterations},
+          {"cg_seconds", runs.plain.seconds},
+          {"jacobi_cg_iterations", runs.by_jacobi.iterations},
+          {"jacobi_cg_seconds", runs.by_jacobi.seconds},
+          {"amg_cg_iterations", runs.by_multigrid.iterations},
           {"amg_setup_seconds", setup},
-          {"amg_cg_seconds", by_multigrid.seconds}};
+          {"amg_cg_seconds", runs.by_multigrid.seconds}};
 }
 
 std::size_t SymmetricSystem::n_free(const dealii::AffineConstraints<double>& constraints) const {

@@ -3,6 +3,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 #include <deal.II/lac/vector.h>
@@ -76,6 +77,9 @@ class SymmetricSystem {
   double condition_number(const dealii::AffineConstraints<double>& constraints) const;
 
   std::size_t most_rows_to_factor_ = 0;  ///< for the condition number
+  /// On one rank, CG takes a copy of the matrix in deal.II's own format: it is faster, and its sums
+  /// have smaller rounding errors. Empty on several ranks.
+  dealii::SparsityPattern pattern_;
 };
 
 }  // namespace smoothfem
