@@ -264,8 +264,8 @@ void expect_same_numbers(const SolverResult& result, const SolverResult& alone) 
     EXPECT_EQ(name, alone.numbers[i].name);
     // Multigrid aggregates on each rank separately.
     if (name.ends_with("_seconds") || name == "amg_cg_iterations") continue;
-    if (name.ends_with("iterations"))
-      expect_close(static_cast<std::size_t>(value), static_cast<std::size_t>(expected));
+    if (name.ends_with("iterations"))  // one process has another format, and adds in another order
+      EXPECT_NEAR(value, expected, std::max(3.0, 0.03 * expected)) << name;
     else if (std::isnan(expected))
       EXPECT_TRUE(std::isnan(value)) << name;
     else
