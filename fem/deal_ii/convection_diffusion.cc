@@ -191,7 +191,7 @@ class ConvectionDiffusion final : public TriangulationSolver<dim> {
 
   double overshoot(const dealii::Vector<double>& u) const {
     double low = std::numeric_limits<double>::infinity(), high = -low, beyond = 0.0;
-    for (const auto& p : space_->support_points()) {
+    for (const auto& [dof, p] : space_->support_points()) {
       const double exact = solution_.value(point_from(p));
       low = std::min(low, exact);
       high = std::max(high, exact);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 
@@ -92,6 +91,7 @@ class Elasticity final : public TriangulationSolver<dim> {
             .needs_mpi = true,
             .needs_solution = false,
             .takes_ties = true,
+            .takes_ranks = true,
             .has_energy = true,
             .has_indicators = true};
   }
@@ -176,23 +176,23 @@ class Elasticity final : public TriangulationSolver<dim> {
              unsigned int degree) override {
     if (!u_text_.empty()) u_.emplace(u_text_);
     if (!load_text_.empty()) load_.emplace("f", load_text_);
-    set_materials(mesh.topology());
-    set_boundary(mesh.topology());
+    take_groups(mesh.topology());
+    require_facets_for_tractions(triangulation);
     space_ = std::make_unique<LagrangeSpace<dim>>(triangulation, degree, dim,
                                                   static_cast<unsigned int>(points_), this->ties());
     const auto constraints = boundary_values();
-    if (constraints.n_constraints() == 0)
+    system_ = std::make_unique<SymmetricSystem>(*space_, constraints);
+    if (system_->n_free(constraints) == space_->dofs.n_dofs())
       throw InputError(
           "no part of the boundary is held in elasticity; name a group of it in a "
           "'displacement group', or take one out of 'natural'");
-    system_.reinit(*space_, constraints);
   }
 
   SolverResult solve(const dealii::Triangulation<dim>& /*triangulation*/) override {
     const auto constraints = boundary_values();
     assemble(constraints);
     SolverResult result{
-        .numbers = system_.solve(constraints, rigid_body_modes(constraints), cg_tolerance_)};
+        .numbers = system_->solve(constraints, rigid_body_modes(constraints), cg_tolerance_)};
     add_norms(result);
     result.numbers.push_back({"u_max", largest_displacement()});
     return result;
@@ -203,8 +203,8 @@ class Elasticity final : public TriangulationSolver<dim> {
   double energy(const dealii::Triangulation<dim>& /*triangulation*/) override {
     const auto constraints = boundary_values();
     assemble(constraints);
-    system_.solve_accurately(constraints, rigid_body_modes(constraints));
-    return system_.energy(*space_, integrands());
+    system_->solve_accurately(constraints, rigid_body_modes(constraints));
+    return system_->energy(*space_, integrands());
   }
 
   /// For inner vertices v with hat functions N_v, the sum over cells of integrals of
@@ -220,9 +220,9 @@ class Elasticity final : public TriangulationSolver<dim> {
     std::vector<dealii::Tensor<2, dim>> gradients;
     space_->for_each_cell_with_hats([&](const dealii::FEValues<dim>& values,
                                         const dealii::FEValues<dim>& hats, const auto& cell) {
-      const Lame& c = materials_[cell->active_cell_index()];
+      const Lame& c = material_of(cell);
       gradients.resize(values.n_quadrature_points);
-      values[displacement].get_function_gradients(system_.solution, gradients);
+      values[displacement].get_function_gradients(system_->solution, gradients);
       for (const unsigned int q : values.quadrature_point_indices()) {
         const Tensor<dim> grad_u = matrix_from(gradients[q]);
         const Tensor<dim> stress = stress_of<dim>(grad_u, c);
@@ -245,11 +245,24 @@ class Elasticity final : public TriangulationSolver<dim> {
   }
 
   dealii::Vector<float> indicators(const dealii::Triangulation<dim>& /*triangulation*/) override {
-    return kelly_means(*space_, system_.solution);
+    return kelly_means(*space_, system_->solution);
   }
 
  private:
   using Id = dealii::types::boundary_id;
+
+  /// Takes materials and conditions of groups, which only the root's mesh has.
+  void take_groups(const Topology& topology) {
+    const Ranks& ranks = this->ranks();
+    ranks.on_root([&] {
+      set_materials(topology);
+      set_boundary(topology);
+    });
+    ranks.broadcast(materials_);
+    ranks.broadcast(natural_ids_);
+    ranks.broadcast(displacement_ids_);
+    ranks.broadcast(traction_ids_);
+  }
 
   static void set_constant(const std::string& parameter, const std::string& group,
                            const std::string& text, Constants& constants) {
@@ -321,37 +334,48 @@ class Elasticity final : public TriangulationSolver<dim> {
 
   void set_boundary(const Topology& topology) {
     natural_ids_.clear();
-    displacement_of_.clear();
-    traction_of_.clear();
+    displacement_ids_.clear();
+    traction_ids_.clear();
     for (const auto& group : split_list(natural_)) natural_ids_.push_back(id_of(topology, group));
     for (std::size_t k = 0; k < displacements_.size(); ++k)
       for (const Id id : ids_of_displacement(topology, displacements_[k].group))
-        displacement_of_[id].push_back(k);
+        displacement_ids_.push_back({id, k});
     for (std::size_t k = 0; k < tractions_.size(); ++k)
-      traction_of_[id_of(topology, tractions_[k].group)].push_back(k);
+      traction_ids_.push_back({id_of(topology, tractions_[k].group), k});
   }
 
   bool is_natural(Id id) const {
     return std::find(natural_ids_.begin(), natural_ids_.end(), id) != natural_ids_.end();
   }
 
+  bool has_traction(Id id) const {
+    return is_natural(id) || std::any_of(traction_ids_.begin(), traction_ids_.end(),
+                                         [&](const OfId& given) { return given.id == id; });
+  }
+
+  /// deal.II 9.4 has no quadrature on their facets, which have two shapes.
+  void require_facets_for_tractions(const dealii::Triangulation<dim>& triangulation) const {
+    for (const auto& type : triangulation.get_reference_cells())
+      if ((type == dealii::ReferenceCells::Pyramid || type == dealii::ReferenceCells::Wedge) &&
+          !(natural_ids_.empty() && traction_ids_.empty()))
+        throw InputError("elasticity has no tractions on pyramids and prisms; leave them out");
+  }
+
   dealii::AffineConstraints<double> boundary_values() const {
-    dealii::AffineConstraints<double> constraints;
+    dealii::AffineConstraints<double> constraints(space_->relevant_dofs);
     const auto points = space_->support_points();
     const auto hold = [&](auto dof, double value) {
       constraints.add_line(dof);
       constraints.set_inhomogeneity(dof, value);
     };
     space_->for_each_boundary_dof([&](auto dof, unsigned int component, Id id) {
-      const Point<dim> p = point_from(points[dof]);
+      const Point<dim> p = point_from(points.at(dof));
       if (u_) {
         if (!is_natural(id)) hold(dof, u_->at(p).value[component]);
         return;
       }
-      const auto given = displacement_of_.find(id);
-      if (given == displacement_of_.end()) return;
-      for (const std::size_t k : given->second)
-        if (displacements_[k].is_given[component])
+      for (const auto& [group, k] : displacement_ids_)
+        if (group == id && displacements_[k].is_given[component])
           hold(dof, displacements_[k].values.at(p)[component]);
     });
     space_->add_ties(constraints);
@@ -369,14 +393,14 @@ class Elasticity final : public TriangulationSolver<dim> {
   }
 
   void assemble(const dealii::AffineConstraints<double>& constraints) {
-    system_.assemble(*space_, constraints, integrands());
+    system_->assemble(*space_, constraints, integrands());
   }
 
   /// Returns the integrals over a cell, for SymmetricSystem.
   auto integrands() const {
     return [this](const dealii::FEValues<dim>& values, const auto& cell,
                   dealii::FullMatrix<double>& cell_matrix, dealii::Vector<double>& cell_load) {
-      const Lame& c = materials_[cell->active_cell_index()];
+      const Lame& c = material_of(cell);
       add_stiffness(values, c, cell_matrix);
       for (const unsigned int q : values.quadrature_point_indices()) {
         const auto f = load_at(point_from(values.quadrature_point(q)), c);
@@ -393,6 +417,11 @@ class Elasticity final : public TriangulationSolver<dim> {
     for (int i = 0; i < dim; ++i)
       for (int j = 0; j < dim; ++j) matrix(i, j) = given[i][j];
     return matrix;
+  }
+
+  template <class Cell>
+  const Lame& material_of(const Cell& cell) const {
+    return materials_[cell->id().get_coarse_cell_id()];
   }
 
   static int component(const dealii::FiniteElement<dim>& element, unsigned int i) {
@@ -431,11 +460,7 @@ class Elasticity final : public TriangulationSolver<dim> {
     for (const unsigned int f : cell->face_indices()) {
       if (!cell->face(f)->at_boundary() || space_->is_tied(cell->face(f))) continue;
       const Id id = cell->face(f)->boundary_id();
-      const auto given = traction_of_.find(id);
-      if (!(u_ && is_natural(id)) && given == traction_of_.end()) continue;
-      if (cell->reference_cell() == dealii::ReferenceCells::Pyramid ||
-          cell->reference_cell() == dealii::ReferenceCells::Wedge)
-        throw InputError("elasticity has no tractions on pyramids and prisms; leave them out");
+      if (!has_traction(id)) continue;
       const unsigned int type = cell->active_fe_index();
       const auto& element = cell->get_fe();
       dealii::FEFaceValues<dim> values(space_->mappings[type], element, space_->facet_rules[type],
@@ -451,7 +476,8 @@ class Elasticity final : public TriangulationSolver<dim> {
           for (int d = 0; d < dim; ++d) normal[d] = values.normal_vector(q)[d];
           traction = stress_of<dim>(u_->at(p).gradient, c) * normal;
         } else {
-          for (const std::size_t k : given->second) {
+          for (const auto& [group, k] : traction_ids_) {
+            if (group != id) continue;
             const auto here = tractions_[k].values.at(p);
             for (int d = 0; d < dim; ++d)
               if (tractions_[k].is_given[static_cast<std::size_t>(d)]) traction[d] += here[d];
@@ -468,35 +494,37 @@ class Elasticity final : public TriangulationSolver<dim> {
   double largest_displacement() const {
     std::vector<dealii::types::global_dof_index> indices;
     double most = 0.0;
-    for (const auto& cell : space_->dofs.active_cell_iterators()) {
+    for (const auto& cell : space_->own_cells()) {
       const auto& element = cell->get_fe();
       indices.resize(element.n_dofs_per_cell());
       cell->get_dof_indices(indices);
       std::vector<double> squares(indices.size() / dim);  // of each support point
       for (unsigned int i = 0; i < indices.size(); ++i) {
-        const double u = system_.solution[indices[i]];
+        const double u = system_->solution[indices[i]];
         squares[element.system_to_component_index(i).second] += u * u;
       }
       most = std::max(most, *std::max_element(squares.begin(), squares.end()));
     }
-    return std::sqrt(most);
+    return std::sqrt(this->ranks().max(most));
   }
 
-  /// Returns translations and rotations, zero at constrained dofs.
-  std::vector<dealii::Vector<double>> rigid_body_modes(
+  /// Returns translations and rotations at this rank's dofs, zero at constrained ones.
+  std::vector<std::vector<double>> rigid_body_modes(
       const dealii::AffineConstraints<double>& constraints) const {
     constexpr unsigned int n_modes = dim * (dim + 1) / 2;
-    std::vector<dealii::Vector<double>> modes(n_modes,
-                                              dealii::Vector<double>(space_->dofs.n_dofs()));
+    const auto& own = space_->dofs.locally_owned_dofs();
+    std::vector<std::vector<double>> modes(n_modes, std::vector<double>(own.n_elements()));
     const auto points = space_->support_points();
     space_->for_each_dof([&](auto dof, unsigned int c) {
-      if (constraints.is_constrained(dof)) return;
-      modes[c][dof] = 1.0;
+      if (constraints.is_constrained(dof) || !own.is_element(dof)) return;
+      const auto i = own.index_within_set(dof);
+      const auto& p = points.at(dof);
+      modes[c][i] = 1.0;
       unsigned int mode = dim;
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int b = a + 1; b < dim; ++b, ++mode) {
-          if (c == a) modes[mode][dof] = -points[dof][b];
-          if (c == b) modes[mode][dof] = points[dof][a];
+          if (c == a) modes[mode][i] = -p[b];
+          if (c == b) modes[mode][i] = p[a];
         }
     });
     return modes;
@@ -509,11 +537,11 @@ class Elasticity final : public TriangulationSolver<dim> {
     std::vector<dealii::Tensor<2, dim>> gradients;
     double l2 = 0.0, h1 = 0.0, energy_error = 0.0, energy = 0.0, stress_error = 0.0, stress = 0.0;
     space_->for_each_cell([&](const dealii::FEValues<dim>& values, const auto& cell) {
-      const Lame& c = materials_[cell->active_cell_index()];
+      const Lame& c = material_of(cell);
       u_h.resize(values.n_quadrature_points);
       gradients.resize(values.n_quadrature_points);
-      values[displacement].get_function_values(system_.solution, u_h);
-      values[displacement].get_function_gradients(system_.solution, gradients);
+      values[displacement].get_function_values(system_->solution, u_h);
+      values[displacement].get_function_gradients(system_->solution, gradients);
       for (const unsigned int q : values.quadrature_point_indices()) {
         const Tensor<dim> gradient = matrix_from(gradients[q]);
         Eigen::Matrix<double, dim, 1> value;
@@ -531,6 +559,8 @@ class Elasticity final : public TriangulationSolver<dim> {
             std::max(stress_error, std::abs(von_mises<dim>(exact.gradient, c) - stress_here));
       }
     });
+    for (double* sum : {&l2, &h1, &energy_error, &energy}) *sum = this->ranks().sum(*sum);
+    for (double* most : {&stress_error, &stress}) *most = this->ranks().max(*most);
     if (u_) {
       result.numbers.push_back({"l2_error", std::sqrt(l2)});
       result.numbers.push_back({"h1_error", std::sqrt(l2 + h1)});
@@ -545,6 +575,12 @@ class Elasticity final : public TriangulationSolver<dim> {
     std::string parameter, group, value;
   };
 
+  /// A boundary id with the number of a condition there.
+  struct OfId {
+    Id id;
+    std::size_t condition;
+  };
+
   std::string u_text_, load_text_, natural_;
   Constants constants_;
   std::vector<OfGroup> of_groups_;
@@ -556,9 +592,9 @@ class Elasticity final : public TriangulationSolver<dim> {
   std::optional<VectorFormula<dim>> load_;
   std::vector<Lame> materials_;  ///< of each cell
   std::vector<Id> natural_ids_;
-  std::map<Id, std::vector<std::size_t>> displacement_of_, traction_of_;
+  std::vector<OfId> displacement_ids_, traction_ids_;
   std::unique_ptr<LagrangeSpace<dim>> space_;
-  SymmetricSystem system_;
+  std::unique_ptr<SymmetricSystem> system_;
 };
 
 const RegisteredSolver registered_elasticity(

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fem/deal_ii/lagrange_space.h"
+#include "fem/ranks/ranks.h"
 #include "fem/solvers/mesh_solver.h"
 
 namespace smoothfem {
@@ -13,9 +14,8 @@ namespace smoothfem {
 /// Returns deal.II's Kelly indicator of each cell, of the jumps of grad u_h across facets: its
 /// square is a cell's part of the estimate's square. Throws SolverFailure for a mesh with several
 /// types of cells.
-template <int dim>
-dealii::Vector<float> kelly_indicators(const LagrangeSpace<dim>& space,
-                                       const dealii::Vector<double>& u_h) {
+template <int dim, class Vector>
+dealii::Vector<float> kelly_indicators(const LagrangeSpace<dim>& space, const Vector& u_h) {
   if (space.elements.size() > 1)
     throw SolverFailure("Kelly's indicators need a mesh with one type of cells");
   dealii::Vector<float> of_cells(space.dofs.get_triangulation().n_active_cells());
@@ -24,11 +24,18 @@ dealii::Vector<float> kelly_indicators(const LagrangeSpace<dim>& space,
   return of_cells;
 }
 
+/// Returns the estimate, of the cells of all ranks.
+template <int dim, class Vector>
+double kelly_estimate(const LagrangeSpace<dim>& space, const Vector& u_h, const Ranks& ranks) {
+  double sum = 0.0;
+  for (const double indicator : kelly_indicators(space, u_h)) sum += indicator * indicator;
+  return std::sqrt(ranks.sum(sum));
+}
+
 /// Returns Kelly's indicators divided by the square roots of the cells' sizes: means over the
 /// cells, which methods that move nodes compare.
-template <int dim>
-dealii::Vector<float> kelly_means(const LagrangeSpace<dim>& space,
-                                  const dealii::Vector<double>& u_h) {
+template <int dim, class Vector>
+dealii::Vector<float> kelly_means(const LagrangeSpace<dim>& space, const Vector& u_h) {
   auto of_cells = kelly_indicators(space, u_h);
   for (const auto& cell : space.dofs.active_cell_iterators())
     of_cells[cell->active_cell_index()] /= static_cast<float>(std::sqrt(cell->measure()));

@@ -24,16 +24,6 @@ using dealii::ReferenceCell;
 using dealii::ReferenceCells::Pyramid;
 using dealii::ReferenceCells::Wedge;
 
-/// Returns the types of the cells, each once, in the order of the cells.
-template <int dim>
-std::vector<ReferenceCell> types_of(const dealii::Triangulation<dim>& triangulation) {
-  std::vector<ReferenceCell> types;
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (std::find(types.begin(), types.end(), cell->reference_cell()) == types.end())
-      types.push_back(cell->reference_cell());
-  return types;
-}
-
 /// Throws InputError for a degree that deal.II does not have.
 template <int dim>
 void check_degree(const std::vector<ReferenceCell>& types, unsigned int degree) {
@@ -80,7 +70,7 @@ LagrangeSpace<dim>::LagrangeSpace(const dealii::Triangulation<dim>& triangulatio
                                   unsigned int degree, unsigned int n_components,
                                   unsigned int n_points, std::shared_ptr<const NodeTies> given)
     : dofs(triangulation), ties(std::move(given)) {
-  const auto types = types_of(triangulation);
+  const auto types = triangulation.get_reference_cells();
   check_degree<dim>(types, degree);
   if (ties && degree > 1)
     throw InputError(
@@ -99,15 +89,17 @@ LagrangeSpace<dim>::LagrangeSpace(const dealii::Triangulation<dim>& triangulatio
     else
       facet_rules.push_back(dealii::QGauss<dim - 1>(n_points));
   }
-  for (const auto& cell : dofs.active_cell_iterators())
+  for (const auto& cell : own_cells())
     cell->set_active_fe_index(static_cast<unsigned int>(
         std::find(types.begin(), types.end(), cell->reference_cell()) - types.begin()));
   dofs.distribute_dofs(elements);
+  dealii::DoFTools::extract_locally_relevant_dofs(dofs, relevant_dofs);
 }
 
 template <int dim>
-std::vector<dealii::Point<dim>> LagrangeSpace<dim>::support_points() const {
-  std::vector<dealii::Point<dim>> points(dofs.n_dofs());
+std::map<dealii::types::global_dof_index, dealii::Point<dim>> LagrangeSpace<dim>::support_points()
+    const {
+  std::map<dealii::types::global_dof_index, dealii::Point<dim>> points;
   dealii::DoFTools::map_dofs_to_support_points(mappings, dofs, points);
   return points;
 }

@@ -3,6 +3,7 @@
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/filtered_iterator.h>
 #include <deal.II/hp/fe_collection.h>
 #include <deal.II/hp/fe_values.h>
 #include <deal.II/hp/mapping_collection.h>
@@ -10,6 +11,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "fem/constraints/node_ties.h"
@@ -17,7 +19,8 @@
 namespace smoothfem {
 
 /// Lagrange elements on a triangulation, which may have several types of cells: for each type an
-/// element, a straight-sided mapping and quadrature rules, in the order of the collections.
+/// element, a straight-sided mapping and quadrature rules, in the order of the collections. On
+/// several ranks, each has the dofs of its cells and of their neighbours, and visits its own cells.
 template <int dim>
 struct LagrangeSpace {
   dealii::hp::FECollection<dim> elements;
@@ -26,13 +29,14 @@ struct LagrangeSpace {
   dealii::hp::QCollection<dim> rules;
   dealii::hp::QCollection<dim - 1> facet_rules;
   dealii::DoFHandler<dim> dofs;
-  std::shared_ptr<const NodeTies> ties;  ///< null: none
+  dealii::IndexSet relevant_dofs;        ///< this rank's, of its cells and of their neighbours
+  std::shared_ptr<const NodeTies> ties;  ///< null: none; always null on several ranks
 
   /// Distributes the dofs. degree: 1 or 2 on simplices and on planar meshes of both types (deal.II
   /// 9.4 has no others), 1 to 4 on quadrilaterals and hexahedra, 1 on pyramids and prisms.
   /// n_components: of the solution. n_points: Gauss points per direction on cells that are not
   /// simplices; 0: degree + 4. Throws InputError for cells and degrees that deal.II does not have,
-  /// such as volume meshes of several types. ties: of degree 1.
+  /// such as volume meshes of several types. ties: of degree 1, on one rank. Collective.
   LagrangeSpace(const dealii::Triangulation<dim>& triangulation, unsigned int degree,
                 unsigned int n_components, unsigned int n_points,
                 std::shared_ptr<const NodeTies> ties = nullptr);
@@ -45,7 +49,7 @@ struct LagrangeSpace {
         mappings, elements, rules,
         more | dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
             dealii::update_JxW_values);
-    for (const auto& cell : dofs.active_cell_iterators()) {
+    for (const auto& cell : own_cells()) {
       values_of_types.reinit(cell);
       visit(values_of_types.get_present_fe_values(), cell);
     }
@@ -69,7 +73,7 @@ struct LagrangeSpace {
   template <class Visit>
   void for_each_dof(const Visit& visit) const {
     std::vector<dealii::types::global_dof_index> indices;
-    for (const auto& cell : dofs.active_cell_iterators()) {
+    for (const auto& cell : own_cells()) {
       const auto& element = cell->get_fe();
       indices.resize(element.n_dofs_per_cell());
       cell->get_dof_indices(indices);
@@ -78,19 +82,27 @@ struct LagrangeSpace {
     }
   }
 
-  /// Returns the position of each dof, for the present positions of the vertices.
-  std::vector<dealii::Point<dim>> support_points() const;
+  /// Returns this rank's cells.
+  auto own_cells() const {
+    return dofs.active_cell_iterators() | dealii::IteratorFilters::LocallyOwnedCell();
+  }
+
+  /// Returns the position of each relevant dof, for the present positions of the vertices.
+  std::map<dealii::types::global_dof_index, dealii::Point<dim>> support_points() const;
 
   /// Constrains the dofs of tied nodes that are not constrained yet.
   void add_ties(dealii::AffineConstraints<double>& constraints) const;
 
   /// Calls visit(dof, component, boundary id) for each dof of each boundary facet, so often more
-  /// than once for a dof. Facets where parts of the mesh are tied are left out.
+  /// than once for a dof. Facets where parts of the mesh are tied are left out. On several ranks,
+  /// all boundary facets with a dof of this rank's cells are visited. Facets of other cells may
+  /// seem to be on the boundary, but have no such dofs.
   template <class Visit>
   void for_each_boundary_dof(const Visit& visit) const {
     std::vector<dealii::types::global_dof_index> indices;
     for (const auto& cell : dofs.active_cell_iterators())
       for (const unsigned int f : cell->face_indices()) {
+        if (cell->is_artificial()) continue;
         const auto face = cell->face(f);
         if (!face->at_boundary() || is_tied(face)) continue;
         const auto& element = cell->get_fe();

@@ -37,8 +37,7 @@ std::vector<SolverNumber> matrix_numbers(const SparseMatrix& a, const Eigen::Vec
     if (!(a.coeff(i, i) > 0.0) || !std::isfinite(b[i]))
       throw SolverFailure("its matrix has no positive number on the diagonal of row " +
                           std::to_string(i) + ", or its right-hand side no finite one");
-  SymmetricSystem system;
-  system.take(a, b);
+  SymmetricSystem system(a, b);
   dealii::AffineConstraints<double> none;
   none.close();
   return system.solve(none, {}, cg_tolerance);

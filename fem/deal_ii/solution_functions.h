@@ -42,20 +42,21 @@ class SolutionFunction final : public dealii::Function<dim> {
 template <int dim>
 dealii::AffineConstraints<double> boundary_values(const LagrangeSpace<dim>& space,
                                                   const ManufacturedSolution<dim>& solution) {
-  dealii::AffineConstraints<double> constraints;
+  dealii::AffineConstraints<double> constraints(space.relevant_dofs);
   const auto points = space.support_points();
   space.for_each_boundary_dof([&](auto dof, unsigned int, auto) {
     constraints.add_line(dof);
-    constraints.set_inhomogeneity(dof, solution.value(point_from(points[dof])));
+    constraints.set_inhomogeneity(dof, solution.value(point_from(points.at(dof))));
   });
   space.add_ties(constraints);
   constraints.close();
   return constraints;
 }
 
-/// Returns the error of a scalar u_h in a norm, by the quadrature of the space.
-template <int dim>
-double error_of(const dealii::Vector<double>& u_h, const LagrangeSpace<dim>& space,
+/// Returns the error of a scalar u_h in a norm, by the quadrature of the space. u_h: with the
+/// relevant dofs. Collective.
+template <int dim, class Vector>
+double error_of(const Vector& u_h, const LagrangeSpace<dim>& space,
                 const ManufacturedSolution<dim>& solution, dealii::VectorTools::NormType norm) {
   const auto& triangulation = space.dofs.get_triangulation();
   dealii::Vector<double> of_cells(triangulation.n_active_cells());

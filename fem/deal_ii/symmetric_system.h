@@ -2,13 +2,12 @@
 #pragma once
 
 #include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
 #include <deal.II/lac/vector.h>
 
-#include <memory>
 #include <vector>
 
 #include "fem/deal_ii/lagrange_space.h"
@@ -18,16 +17,22 @@
 namespace smoothfem {
 
 /// A symmetric positive definite system with constraints, for matrices of one pattern. Rows of
-/// constrained dofs are decoupled from the others.
+/// constrained dofs are decoupled from the others. The rows are distributed over the ranks of the
+/// space's triangulation, as in deal.II's step-40, and all functions are collective.
 class SymmetricSystem {
  public:
-  dealii::SparseMatrix<double> matrix;
-  dealii::Vector<double> right_hand_side, solution;
+  dealii::TrilinosWrappers::SparseMatrix matrix;
+  dealii::TrilinosWrappers::MPI::Vector right_hand_side;
+  dealii::TrilinosWrappers::MPI::Vector solution;  ///< at the relevant dofs
 
-  /// constrained: the dofs that every later set of constraints constrains.
+  /// Makes the pattern; MPI must have been initialized. constrained: the dofs that every later set
+  /// of constraints constrains.
   template <int dim>
-  void reinit(const LagrangeSpace<dim>& space,
-              const dealii::AffineConstraints<double>& constrained);
+  SymmetricSystem(const LagrangeSpace<dim>& space,
+                  const dealii::AffineConstraints<double>& constrained);
+
+  /// Takes pattern and values of another program's matrix, and its right-hand side, on one rank.
+  SymmetricSystem(const SparseMatrix& a, const Eigen::VectorXd& b);
 
   /// Assembles matrix and right-hand side. integrate(values, cell, cell_matrix, cell_load) adds the
   /// integrals over a cell to zeros (see LagrangeSpace::for_each_cell).
@@ -49,22 +54,23 @@ class SymmetricSystem {
       constraints.distribute_local_to_global(cell_matrix, cell_load, indices, matrix,
                                              right_hand_side);
     });
+    matrix.compress(dealii::VectorOperation::add);
+    right_hand_side.compress(dealii::VectorOperation::add);
   }
-
-  /// Takes pattern and values of another program's matrix, and its right-hand side.
-  void take(const SparseMatrix& a, const Eigen::VectorXd& b);
 
   /// Solves by CG without preconditioner, with Jacobi and with algebraic multigrid. The last
   /// solution counts. near_null_space: vectors that the matrix without boundary conditions takes to
-  /// zero, for multigrid; empty: the constants. Returns the columns of `descriptions`.
+  /// zero, with this rank's entries, for multigrid; empty: the constants. Returns the columns of
+  /// `descriptions`. Throws SolverFailure if the matrix is not positive definite, or if CG does not
+  /// converge.
   std::vector<SolverNumber> solve(const dealii::AffineConstraints<double>& constraints,
-                                  const std::vector<dealii::Vector<double>>& near_null_space,
+                                  const std::vector<std::vector<double>>& near_null_space,
                                   double tolerance);
 
   /// Solves once, with an error far below the discretization error: by factors, or for large
   /// matrices by CG with multigrid. Throws SolverFailure.
   void solve_accurately(const dealii::AffineConstraints<double>& constraints,
-                        const std::vector<dealii::Vector<double>>& near_null_space);
+                        const std::vector<std::vector<double>>& near_null_space);
 
   /// Returns a(u_h, u_h) - 2 l(u_h) of the solution; `integrate` as for `assemble`.
   template <int dim, class Integrate>
@@ -84,21 +90,22 @@ class SymmetricSystem {
       force.add(-2.0, cell_load);
       energy += u * force;
     });
-    return energy;
+    return Ranks(matrix.get_mpi_communicator()).sum(energy);
   }
+
+  /// Returns the number of dofs that are not constrained, of all ranks.
+  std::size_t n_free(const dealii::AffineConstraints<double>& constraints) const;
 
   static std::vector<NumberDescription> descriptions();
 
  private:
-  /// Returns the condition number of the matrix without the constrained dofs.
+  /// Returns the condition number of the matrix without the constrained dofs. The root computes it.
   double condition_number(const dealii::AffineConstraints<double>& constraints) const;
 
-  dealii::TrilinosWrappers::SparseMatrix& trilinos_matrix();
-
   std::size_t most_rows_to_factor_ = 0;
+  /// On one rank, CG takes a copy of the matrix in deal.II's own format: it is faster, and its sums
+  /// have smaller rounding errors. Empty on several ranks.
   dealii::SparsityPattern pattern_;
-  /// Made at first use, as it needs MPI.
-  std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix> trilinos_;
 };
 
 }  // namespace smoothfem

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "fem/elements/single_threaded.h"
+#include "fem/space/distributed_mesh.h"
 #include "fem/space/fill_triangulation.h"
 #include "smoothing/base/text.h"
 #include "smoothing/loop/plugin.h"
@@ -24,30 +25,44 @@ unsigned int id_of(int tag) {
   return static_cast<unsigned int>(tag);
 }
 
-/// Returns the tag of a labelled facet by its sorted nodes.
-std::map<std::vector<NodeIndex>, int> facet_tags_of(const MeshLabels& labels) {
-  std::map<std::vector<NodeIndex>, int> tags;
+/// Returns the id of each cell; empty without tags.
+std::vector<unsigned int> cell_ids_of(const MeshLabels& labels) {
+  std::vector<unsigned int> ids;
+  for (const int tag : labels.cell_tags) ids.push_back(id_of(tag));
+  return ids;
+}
+
+/// The ids of labelled facets by their sorted nodes.
+using FacetIds = std::map<std::vector<NodeIndex>, unsigned int>;
+
+FacetIds facet_ids_of(const MeshLabels& labels) {
+  FacetIds ids;
   for (std::size_t f = 0; f < labels.facets.size(); ++f) {
     std::vector<NodeIndex> nodes(labels.facets[f].begin(), labels.facets[f].end());
     std::sort(nodes.begin(), nodes.end());
-    tags.emplace(std::move(nodes), labels.facet_tags[f]);
+    ids.emplace(std::move(nodes), id_of(labels.facet_tags[f]));
   }
-  return tags;
+  return ids;
 }
 
 template <int dim>
-void set_boundary_ids(const MeshLabels& labels, dealii::Triangulation<dim>& triangulation) {
-  const auto tags = facet_tags_of(labels);
-  if (tags.empty()) return;
+void set_boundary_ids(const FacetIds& ids, dealii::Triangulation<dim>& triangulation) {
+  if (ids.empty()) return;
   std::vector<NodeIndex> nodes;
   for (const auto& face : triangulation.active_face_iterators()) {
     if (!face->at_boundary()) continue;
     nodes.clear();
     for (const unsigned int v : face->vertex_indices()) nodes.push_back(face->vertex_index(v));
     std::sort(nodes.begin(), nodes.end());
-    if (const auto tag = tags.find(nodes); tag != tags.end())
-      face->set_all_boundary_ids(id_of(tag->second));
+    if (const auto id = ids.find(nodes); id != ids.end()) face->set_all_boundary_ids(id->second);
   }
+}
+
+void require_cells_of_deal_ii(const Topology& topology) {
+  for (CellIndex c = 0; c < topology.n_cells(); ++c)
+    if (topology.cell_type(c) == ElementType::polygon)
+      throw InputError("the mesh has a cell with " + std::to_string(topology.cell_nodes(c).size()) +
+                       " nodes, but deal.II has triangles and quadrilaterals only");
 }
 
 }  // namespace
@@ -69,32 +84,40 @@ void with_failures_of_deal_ii(const std::function<void()>& work) {
 }
 
 template <int dim>
-std::unique_ptr<dealii::Triangulation<dim>> triangulation_of(const Mesh<dim>& mesh) {
+TriangulatedMesh<dim>::TriangulatedMesh(const Mesh<dim>& mesh, const Ranks& ranks) : ranks_(ranks) {
   keep_deal_ii_single_threaded();
-  const Topology& topology = mesh.topology();
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-    if (topology.cell_type(c) == ElementType::polygon)
-      throw InputError("the mesh has a cell with " + std::to_string(topology.cell_nodes(c).size()) +
-                       " nodes, but deal.II has triangles and quadrilaterals only");
-  std::vector<unsigned int> materials;
-  for (const int tag : topology.labels().cell_tags) materials.push_back(id_of(tag));
-  auto triangulation = std::make_unique<dealii::Triangulation<dim>>();
-  fill_triangulation(mesh, materials, *triangulation);
-  set_boundary_ids(topology.labels(), *triangulation);
-  return triangulation;
+  std::vector<unsigned int> cell_ids;
+  FacetIds facet_ids;
+  ranks.on_root([&] {
+    require_cells_of_deal_ii(mesh.topology());
+    cell_ids = cell_ids_of(mesh.topology().labels());
+    facet_ids = facet_ids_of(mesh.topology().labels());
+  });
+  triangulation_ = distributed_triangulation<dim>(
+      [&](dealii::Triangulation<dim>& whole) {
+        fill_triangulation(mesh, cell_ids, whole);
+        set_boundary_ids(facet_ids, whole);
+      },
+      ranks);
+  std::vector<NodeIndex> nodes;
+  for (const auto& vertex : triangulation_->get_vertices())
+    nodes.push_back(static_cast<NodeIndex>(ranks.size() == 1 ? nodes.size() : vertex[0]));
+  nodes_of_ranks_ = ranks.gather(nodes);
+  move_vertices(mesh);
 }
 
 template <int dim>
-void move_vertices(const Mesh<dim>& mesh, dealii::Triangulation<dim>& triangulation) {
-  for (const auto& cell : triangulation.active_cell_iterators())
+void TriangulatedMesh<dim>::move_vertices(const Mesh<dim>& mesh) {
+  std::vector<Point<dim>> x;
+  x.reserve(nodes_of_ranks_.size());
+  for (const NodeIndex node : nodes_of_ranks_) x.push_back(mesh.coordinates()[node]);
+  x = ranks_.scatter(x, triangulation_->n_vertices());
+  for (const auto& cell : triangulation_->active_cell_iterators())
     for (const unsigned int v : cell->vertex_indices())
-      for (int d = 0; d < dim; ++d)
-        cell->vertex(v)[d] = mesh.coordinates()[cell->vertex_index(v)][d];
+      for (int d = 0; d < dim; ++d) cell->vertex(v)[d] = x[cell->vertex_index(v)][d];
 }
 
-template std::unique_ptr<dealii::Triangulation<2>> triangulation_of(const Mesh<2>&);
-template std::unique_ptr<dealii::Triangulation<3>> triangulation_of(const Mesh<3>&);
-template void move_vertices(const Mesh<2>&, dealii::Triangulation<2>&);
-template void move_vertices(const Mesh<3>&, dealii::Triangulation<3>&);
+template class TriangulatedMesh<2>;
+template class TriangulatedMesh<3>;
 
 }  // namespace smoothfem

@@ -4,6 +4,8 @@
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/partitioner.h>
 
+#include "smoothing/base/input_error.h"
+
 namespace smoothfem {
 
 namespace {
@@ -37,6 +39,21 @@ std::vector<int> offsets_of(const std::vector<int>& counts) {
 Ranks::Ranks(MPI_Comm communicator) : communicator_(communicator) {
   MPI_Comm_size(communicator, &size_);
   MPI_Comm_rank(communicator, &rank_);
+}
+
+void Ranks::on_root(const std::function<void()>& work) const {
+  std::exception_ptr error;
+  try {
+    if (is_root()) work();
+  } catch (const InputError&) {
+    error = std::current_exception();
+  }
+  bool refused = error != nullptr;
+  broadcast(refused);
+  if (error) std::rethrow_exception(error);
+  if (refused)
+    throw InputError(
+        "the problem cannot be solved on the mesh; see the error of the first process");
 }
 
 void Ranks::sum(std::span<double> values) const {

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -34,6 +35,8 @@ class Ranks {
   double max(double value) const;
   /// Returns the sum over the ranks before this one.
   std::size_t exclusive_scan(std::size_t value) const;
+  /// Calls work() on the root. If it throws an InputError there, all ranks throw one. Collective.
+  void on_root(const std::function<void()>& work) const;
   /// Sends the root's value to all ranks.
   template <class T>
   void broadcast(T& value) const {

@@ -17,6 +17,8 @@
 
 namespace smoothfem {
 
+class Ranks;
+
 /// A number that a solver gives for each mesh.
 struct NumberDescription {
   std::string name;         ///< a letter, then letters, digits and '_'; its column is LABEL.name
@@ -38,7 +40,8 @@ struct SolverTraits {
   bool needs_mpi = false;       ///< it calls libraries that need MPI, and is not called by threads
   bool needs_solution = false;  ///< of the study, by use_solution
   bool takes_ties = false;      ///< it solves on meshes with tied nodes (use_ties)
-  bool has_energy = false;      ///< `energy` and `energy_gradient`
+  bool takes_ranks = false;  ///< it solves on several processes, if there are no ties (use_ranks)
+  bool has_energy = false;   ///< `energy` and `energy_gradient`
   bool has_indicators = false;  ///< `indicators`
 };
 
@@ -73,6 +76,11 @@ class MeshSolver {
 
   /// Takes the ties of the mesh's hanging and periodic nodes; called before initialize.
   virtual void use_ties(const std::shared_ptr<const NodeTies>& /*ties*/) {}
+
+  /// Takes the processes that solve together; called before initialize. Then all of them call
+  /// initialize and solve. The root's mesh counts; the others' is not used. InputErrors, and so
+  /// SolverFailures, are thrown on all.
+  virtual void use_ranks(const Ranks& /*ranks*/) {}
 
   /// Returns the descriptions of its numbers. It may give other numbers, too.
   virtual std::vector<NumberDescription> numbers() const { return {}; }

@@ -27,20 +27,18 @@ void write_numbers_into_vertices(dealii::Triangulation<dim>& triangulation) {
 }  // namespace
 
 template <int dim>
-std::unique_ptr<dealii::Triangulation<dim>> make_triangulation(const Mesh<dim>* mesh,
-                                                               const Ranks& ranks) {
+std::unique_ptr<dealii::Triangulation<dim>> distributed_triangulation(
+    const std::function<void(dealii::Triangulation<dim>&)>& fill, const Ranks& ranks) {
   if (ranks.size() == 1) {
     auto triangulation = std::make_unique<dealii::Triangulation<dim>>();
-    fill_triangulation(*mesh, cell_kinds(mesh->topology()), *triangulation);
+    fill(*triangulation);
     return triangulation;
   }
   const auto n_ranks = static_cast<unsigned int>(ranks.size());
   const auto description =
       dealii::TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<
           dim, dim>(
-          [&](dealii::Triangulation<dim>& whole) {
-            fill_triangulation(*mesh, cell_kinds(mesh->topology()), whole);
-          },
+          fill,
           [&](dealii::Triangulation<dim>& whole, const MPI_Comm&, const unsigned int) {
             dealii::GridTools::partition_triangulation(n_ranks, whole);
             write_numbers_into_vertices(whole);
@@ -51,7 +49,20 @@ std::unique_ptr<dealii::Triangulation<dim>> make_triangulation(const Mesh<dim>* 
   triangulation->create_triangulation(description);
   return triangulation;
 }
+template std::unique_ptr<dealii::Triangulation<2>> distributed_triangulation(
+    const std::function<void(dealii::Triangulation<2>&)>&, const Ranks&);
+template std::unique_ptr<dealii::Triangulation<3>> distributed_triangulation(
+    const std::function<void(dealii::Triangulation<3>&)>&, const Ranks&);
 
+template <int dim>
+std::unique_ptr<dealii::Triangulation<dim>> make_triangulation(const Mesh<dim>* mesh,
+                                                               const Ranks& ranks) {
+  return distributed_triangulation<dim>(
+      [&](dealii::Triangulation<dim>& whole) {
+        fill_triangulation(*mesh, cell_kinds(mesh->topology()), whole);
+      },
+      ranks);
+}
 template std::unique_ptr<dealii::Triangulation<2>> make_triangulation(const Mesh<2>*, const Ranks&);
 template std::unique_ptr<dealii::Triangulation<3>> make_triangulation(const Mesh<3>*, const Ranks&);
 

@@ -32,18 +32,7 @@ template void require_finite_elements<3>(const Topology&, int, const std::vector
 template <int dim>
 void require_on_all_ranks(const Topology* topology, int degree,
                           const std::vector<std::string>& natural_groups, const Ranks& ranks) {
-  std::exception_ptr error;
-  try {
-    if (topology != nullptr) require_finite_elements<dim>(*topology, degree, natural_groups);
-  } catch (const InputError&) {
-    error = std::current_exception();
-  }
-  bool refused = error != nullptr;
-  ranks.broadcast(refused);
-  if (error) std::rethrow_exception(error);
-  if (refused)
-    throw InputError(
-        "the problem cannot be solved on the mesh; see the error of the first process");
+  ranks.on_root([&] { require_finite_elements<dim>(*topology, degree, natural_groups); });
 }
 
 template void require_on_all_ranks<2>(const Topology*, int, const std::vector<std::string>&,

@@ -13,6 +13,7 @@
 #include "fem/materials/materials_of_mesh.h"
 #include "fem/poisson_solver.h"
 #include "fem/ranks/mpi_session.h"
+#include "fem/solvers/mesh_solver.h"
 #include "fem/tests/unit_mesh.h"
 
 namespace smoothfem {
@@ -229,6 +230,132 @@ TEST_P(SeveralRanksTest, EnergyAndItsGradientEqualThoseOfOneProcess) {
                                 : derived_solution<dim>("sin(2*x)*y^2 + z", "1 + x*y", {}),
                             {"right"});
   });
+}
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+using Keyed = std::vector<std::array<std::string, 3>>;  ///< parameter, name, value
+
+/// A solver of deal.II, with settings.
+struct Chosen {
+  std::string type;
+  int degree;
+  Settings settings = {};
+  Keyed keyed = {};
+
+  std::unique_ptr<MeshSolver<3>> make() const {
+    auto made = make_solver<3>(type);
+    EXPECT_TRUE(made->traits().takes_ranks);
+    for (const auto& [name, value] : settings)
+      set_value(find_parameter(made->parameters(), name, type), value, type);
+    for (const auto& [parameter, name, value] : keyed) made->set_keyed(parameter, name, value);
+    made->check_parameters();
+    if (made->traits().needs_solution)
+      made->use_solution(derived_solution<3>("sin(2*x)*exp(y) + z^2", "", {}));
+    return made;
+  }
+};
+
+void expect_same_numbers(const SolverResult& result, const SolverResult& alone) {
+  EXPECT_EQ(result.status, alone.status);
+  ASSERT_EQ(result.numbers.size(), alone.numbers.size());
+  for (std::size_t i = 0; i < result.numbers.size(); ++i) {
+    const auto& [name, value] = result.numbers[i];
+    const double expected = alone.numbers[i].value;
+    EXPECT_EQ(name, alone.numbers[i].name);
+    // Multigrid aggregates on each rank separately.
+    if (name.ends_with("_seconds") || name == "amg_cg_iterations") continue;
+    if (name.ends_with("iterations"))  // one process has another format, and adds in another order
+      EXPECT_NEAR(value, expected, std::max(3.0, 0.03 * expected)) << name;
+    else if (std::isnan(expected))
+      EXPECT_TRUE(std::isnan(value)) << name;
+    else
+      EXPECT_NEAR(value, expected,
+                  (name.ends_with("condition_number") ? 1e-4 : 1e-8) * std::abs(expected))
+          << name;
+  }
+}
+
+/// Solves on two meshes of one topology. Only the root's solver gets them.
+void expect_same_on_all_ranks(const Chosen& chosen, const VolumeMesh& first,
+                              const VolumeMesh& second) {
+  const auto shared = chosen.make(), alone = chosen.make();
+  const bool is_root = all_ranks().is_root();
+  const VolumeMesh none = unit_cube(1, Cells::tetrahedra, 0.0);
+  shared->use_ranks(all_ranks());
+  shared->initialize(is_root ? first : none, chosen.degree);
+  if (is_root) alone->initialize(first, chosen.degree);
+  for (const VolumeMesh* mesh : {&first, &second}) {
+    const auto result = shared->solve(is_root ? *mesh : none);
+    if (is_root) expect_same_numbers(result, alone->solve(*mesh));
+  }
+}
+
+class SolverOnRanksTest : public testing::TestWithParam<Case> {};
+
+/// deal.II 9.4 does not number dofs of mixed volume meshes.
+std::vector<Case> cases_of_deal_ii() {
+  auto cases = volume_cases();
+  std::erase_if(cases, [](const Case& c) { return c.cells == Cells::mixed_volume; });
+  cases.push_back({Cells::hexahedra, 3});
+  return cases;
+}
+INSTANTIATE_TEST_SUITE_P(Elements, SolverOnRanksTest, testing::ValuesIn(cases_of_deal_ii()),
+                         [](const auto& info) { return name_of(info.param); });
+
+TEST_P(SolverOnRanksTest, PoissonByDealIIEqualsThatOfOneProcess) {
+  const auto [cells, degree] = GetParam();
+  expect_same_on_all_ranks({"deal.II", degree, {{"cg_tolerance", "1e-13"}}},
+                           unit_cube(4, cells, 0.0), unit_cube(4, cells, 0.2));
+}
+
+TEST_P(SolverOnRanksTest, ElasticityOfAKnownDisplacementEqualsThatOfOneProcess) {
+  const auto [cells, degree] = GetParam();
+  if (degree > 2) GTEST_SKIP() << "takes long";
+  const bool has_tractions = cells != Cells::pyramids && cells != Cells::prisms;
+  expect_same_on_all_ranks({"elasticity",
+                            degree,
+                            {{"u", "sin(x)*y ; cos(y)*z ; x*z"},
+                             {"natural", has_tractions ? "right, side" : ""},
+                             {"cg_tolerance", "1e-13"}}},
+                           with_groups(unit_cube(3, cells, 0.0)),
+                           with_groups(unit_cube(3, cells, 0.2)));
+}
+
+TEST_P(SolverOnRanksTest, ElasticityOfPartsUnderLoadEqualsThatOfOneProcess) {
+  const auto [cells, degree] = GetParam();
+  if (degree > 1) GTEST_SKIP() << "as the known displacement";
+  Keyed keyed{{"E group", "right", "5"},
+              {"nu group", "left", "0.4"},
+              {"displacement group", "left", "0 ; 0 ; 0.1*y"},
+              {"displacement group", "side", "free ; free ; 0.01*x"}};
+  if (cells != Cells::pyramids && cells != Cells::prisms)
+    keyed.push_back({"traction group", "right", "0.1 ; free ; y"});
+  expect_same_on_all_ranks(
+      {"elasticity", degree, {{"f", "0 ; 0 ; -1"}, {"cg_tolerance", "1e-13"}}, keyed},
+      two_materials<3>(4, cells, 0.0), two_materials<3>(4, cells, 0.2));
+}
+
+TEST(SolverOnRanks, RefusesOnAllRanks) {
+  const auto initialize = [](const Chosen& chosen, const VolumeMesh& mesh) {
+    const auto made = chosen.make();
+    made->use_ranks(all_ranks());
+    made->initialize(all_ranks().is_root() ? mesh : unit_cube(1, Cells::tetrahedra, 0.0),
+                     chosen.degree);
+  };
+  const auto cube = with_groups(unit_cube(3, Cells::hexahedra, 0.0));
+  const auto mixed = test::box_mesh(2, 2, 4, test::BoxCells::mixed);
+  EXPECT_THROW(initialize({"deal.II", 5}, cube), InputError);
+  EXPECT_THROW(initialize({"deal.II", 1}, mixed), InputError);
+  const Chosen nowhere{"elasticity", 1, {}, {{"displacement group", "nowhere", "0 ; 0 ; 0"}}};
+  EXPECT_THROW(initialize(nowhere, cube), InputError);
+  const Chosen loose{"elasticity", 1, {{"u", "x ; y ; z"}, {"natural", "left, right, side"}}, {}};
+  EXPECT_THROW(initialize(loose, cube), InputError);
+  EXPECT_THROW(initialize(loose, with_groups(unit_cube(2, Cells::prisms, 0.0))), InputError);
+}
+
+TEST(SolverOnRanks, FewCellsAreEnoughForEachRank) {
+  expect_same_on_all_ranks({"deal.II", 2}, unit_cube(1, Cells::hexahedra, 0.0),
+                           unit_cube(1, Cells::hexahedra, 0.0));
 }
 
 TEST(SeveralRanks, NoRankHasAnEnergyWhereACellIsFolded) {

@@ -14,6 +14,11 @@ TEST_F(SmallResume, RowsOnTwoRanksAreThoseOfOneProcess) {
   expect_same_rows_on_ranks("volume", {2});
 }
 
+TEST_F(SmallResume, RowsOfOtherSolversOnTwoRanksAreThoseOfOneProcess) {
+  write_solver_study("solvers.prm");
+  expect_same_rows_on_ranks("solvers", {2});
+}
+
 TEST_F(SmallResume, RowsOfSolutionAdaptiveMethodsOnTwoRanksAreThoseOfOneProcess) {
   expect_same_rows_on_ranks("moving", {2});
 }

@@ -134,11 +134,11 @@ class StudyRun {
 
   /// Throws InputError if a solver cannot be used on a mesh. One that fails on it gets rows with
   /// the reason later.
-  void require_support_of_solvers() const {
+  void require_support_of_solvers() {
     if constexpr (dim == spacedim)
       for (std::size_t m = 0; m < data_.meshes.size(); ++m)
         for (const StudySolve& solve : data_.solves) try {
-            if (solve.solver != nullptr) (void)solver_on_mesh(data_, m, solve);
+            if (solve.solver != nullptr) (void)solver_on_mesh(data_, m, solve, &team_);
           } catch (const SolverFailure&) {
           }
   }
@@ -188,7 +188,7 @@ class StudyRun {
     if constexpr (dim == spacedim) {
       if (const StudySolver* solver = solver_smoothed_for(study_, method))
         return make_solver_problem<dim>(data_.meshes[m].mesh, [this, m, solver](int degree) {
-          return solver_on_mesh(data_, m, {solver, with_degree(*solver, degree)});
+          return solver_on_mesh(data_, m, {solver, with_degree(*solver, degree)}, nullptr);
         });
       if (data_.solutions.empty()) return nullptr;
       std::vector<std::size_t> chosen;  // indices of the study's solutions

@@ -61,7 +61,9 @@ SolutionRecord solve_refined(const StudyData<dim>& data, const SolveTask& task,
 template <int dim>
 class OtherSolvers {
  public:
-  explicit OtherSolvers(const StudyData<dim>& data) : data_(data) {}
+  /// team: see solver_on_mesh.
+  explicit OtherSolvers(const StudyData<dim>& data, SolverTeam* team = nullptr)
+      : data_(data), team_(team) {}
 
   /// Solves for a task of a solver.
   SolutionRecord solve(const SolveTask& task) {
@@ -73,7 +75,7 @@ class OtherSolvers {
       const auto& initial = data_.meshes[job.mesh].mesh;
       if (!solver_ || mesh_ != job.mesh || solve_ != job.solve) {
         solver_.reset();
-        solver_ = solver_on_mesh(data_, job.mesh, chosen);
+        solver_ = solver_on_mesh(data_, job.mesh, chosen, team_);
         mesh_ = job.mesh;
         solve_ = job.solve;
       }
@@ -93,6 +95,7 @@ class OtherSolvers {
 
  private:
   const StudyData<dim>& data_;
+  SolverTeam* team_;
   std::unique_ptr<MeshSolver<dim>> solver_;
   std::size_t mesh_ = 0, solve_ = 0;  ///< of the solver
 };
@@ -168,7 +171,8 @@ class PlanarWorker {
 /// between jobs. So an interruption between jobs does not change results.
 class TeamWorker {
  public:
-  TeamWorker(StudyData<3>& data, SolverTeam& team) : data_(data), team_(team), others_(data) {}
+  TeamWorker(StudyData<3>& data, SolverTeam& team)
+      : data_(data), team_(team), others_(data, &team) {}
 
   void work(SolveTask& task) {
     const SolveJob& job = task.job;
@@ -244,7 +248,7 @@ std::string diffusivity_text(const StudySolution& solution) {
 
 template <int dim>
 std::unique_ptr<MeshSolver<dim>> solver_on_mesh(const StudyData<dim>& data, std::size_t mesh,
-                                                const StudySolve& solve) {
+                                                const StudySolve& solve, SolverTeam* team) {
   auto solver = solve.solver->template make<dim>();
   try {
     if (solve.solver->traits.needs_solution) solver->use_solution(data.solutions[mesh].front());
@@ -253,6 +257,10 @@ std::unique_ptr<MeshSolver<dim>> solver_on_mesh(const StudyData<dim>& data, std:
         throw InputError(
             "it has no constraints for hanging or periodic nodes; leave it out of 'solvers'");
       solver->use_ties(ties);
+    } else if constexpr (dim == 3) {
+      if (team != nullptr && team->n_ranks() > 1 && solve.solver->traits.takes_ranks)
+        solver = team->shared(std::move(solver),
+                              static_cast<std::size_t>(solve.solver - data.study.solvers.data()));
     }
     solver->initialize(data.meshes[mesh].mesh, solve.degree);
   } catch (const SolverFailure&) {
@@ -264,9 +272,9 @@ std::unique_ptr<MeshSolver<dim>> solver_on_mesh(const StudyData<dim>& data, std:
   return solver;
 }
 template std::unique_ptr<MeshSolver<2>> solver_on_mesh(const StudyData<2>&, std::size_t,
-                                                       const StudySolve&);
+                                                       const StudySolve&, SolverTeam*);
 template std::unique_ptr<MeshSolver<3>> solver_on_mesh(const StudyData<3>&, std::size_t,
-                                                       const StudySolve&);
+                                                       const StudySolve&, SolverTeam*);
 
 bool needs_mpi(const Study& study) {
   for (const auto& solver : study.solvers)
@@ -300,10 +308,10 @@ std::vector<SolveQueue::Worker> solve_workers(StudyData<3>& data,
 
 void serve_solves(const Study& study, const Ranks& ranks) {
   std::vector<ManufacturedSolution<3>> solutions;
-  if (!study.degrees.empty())
+  if (needs_solutions(study))
     for (const StudySolution* solution : solutions_of(study))
       solutions.push_back(study_solution<3>(*solution, {}));
-  SolverTeam::serve(ranks, study.finite_elements, solutions);
+  SolverTeam::serve(ranks, study.finite_elements, solutions, study.solvers);
 }
 
 }  // namespace smoothfem

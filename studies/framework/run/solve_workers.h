@@ -27,10 +27,11 @@ bool needs_mpi(const Study& study);
 unsigned int n_solve_workers(const Study& study, const StudyOptions& options);
 
 /// Makes a solver that is not Poisson's, ready for meshes of one topology. Throws InputError if it
-/// cannot be used on them; a SolverFailure if it fails.
+/// cannot be used on them; a SolverFailure if it fails. team: all of it takes part if the solver
+/// takes ranks and the mesh has no ties; null: this process alone, as for planar meshes.
 template <int dim>
 std::unique_ptr<MeshSolver<dim>> solver_on_mesh(const StudyData<dim>& data, std::size_t mesh,
-                                                const StudySolve& solve);
+                                                const StudySolve& solve, SolverTeam* team);
 
 /// Returns workers for a queue of these tasks. They store the results in the data and
 /// keep them.

@@ -23,6 +23,9 @@ enum class Task : int {
   energy_gradient,
   energy_function,
   end_energy_solver,
+  make_mesh_solver,
+  solve_mesh,
+  end_mesh_solver,
   stop
 };
 
@@ -31,7 +34,8 @@ struct Command {
   int degree = 0;
   int is_result = 0;
   std::size_t solution = 0;
-  std::size_t energy_solver = 0;
+  std::size_t number = 0;  ///< of an energy solver or another solver
+  std::size_t type = 0;    ///< of the other solver: its number in the study
 };
 
 /// Waits with pauses, because waiting in MPI would keep a core busy that smoothing may need.
@@ -91,7 +95,7 @@ class TeamEnergySolver final : public EnergySolver<3> {
 
  private:
   void tell(Task task) const {
-    Command command{.task = task, .energy_solver = number_};
+    Command command{.task = task, .number = number_};
     exchange(ranks_, command);
   }
 
@@ -99,6 +103,46 @@ class TeamEnergySolver final : public EnergySolver<3> {
   const std::size_t number_;
   const std::unique_ptr<EnergySolver<3>> part_;
 };
+
+/// The root's part of a solver of another type, in the same way.
+class TeamMeshSolver final : public MeshSolver<3> {
+ public:
+  TeamMeshSolver(const Ranks& ranks, std::size_t number, std::size_t type,
+                 std::unique_ptr<MeshSolver<3>> part)
+      : ranks_(ranks), number_(number), type_(type), part_(std::move(part)) {
+    part_->use_ranks(ranks_);
+  }
+  TeamMeshSolver(const TeamMeshSolver&) = delete;
+  ~TeamMeshSolver() override { tell({.task = Task::end_mesh_solver}); }
+
+  void initialize(const Mesh<3>& mesh, int degree) override {
+    tell({.task = Task::make_mesh_solver, .degree = degree});
+    all_or_nothing(ranks_, [&] { part_->initialize(mesh, degree); });
+  }
+  SolverResult solve(const Mesh<3>& mesh) override {
+    tell({.task = Task::solve_mesh});
+    return all_or_nothing(ranks_, [&] { return part_->solve(mesh); });
+  }
+
+ private:
+  void tell(Command command) const {
+    command.number = number_;
+    command.type = type_;
+    exchange(ranks_, command);
+  }
+
+  const Ranks ranks_;
+  const std::size_t number_, type_;
+  const std::unique_ptr<MeshSolver<3>> part_;
+};
+
+/// A mesh for ranks other than the root, whose solvers do not look at it.
+Mesh<3> mesh_of_others() {
+  CompressedRows<NodeIndex> cells;
+  cells.append(std::vector<NodeIndex>{0, 1, 2, 3});
+  return {std::make_shared<const Topology>(3, 4, std::move(cells)),
+          {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+}
 
 }  // namespace
 
@@ -148,20 +192,28 @@ std::unique_ptr<EnergySolver<3>> SolverTeam::make_energy_solver(
   Command command{.task = Task::make_energy_solver,
                   .degree = options.degree,
                   .solution = number,
-                  .energy_solver = n_energy_solvers_};
+                  .number = n_solvers_};
   exchange(ranks_, command);
   auto part = all_or_nothing(ranks_, [&] {
     return smoothfem::make_energy_solver(&mesh, options.degree, solutions[number],
                                          options.natural_groups, ranks_);
   });
-  return std::make_unique<TeamEnergySolver>(ranks_, n_energy_solvers_++, std::move(part));
+  return std::make_unique<TeamEnergySolver>(ranks_, n_solvers_++, std::move(part));
+}
+
+std::unique_ptr<MeshSolver<3>> SolverTeam::shared(std::unique_ptr<MeshSolver<3>> part,
+                                                  std::size_t solver) {
+  return std::make_unique<TeamMeshSolver>(ranks_, n_solvers_++, solver, std::move(part));
 }
 
 void SolverTeam::serve(const Ranks& ranks, const PoissonOptions& options,
-                       const std::vector<ManufacturedSolution<3>>& solutions) {
+                       const std::vector<ManufacturedSolution<3>>& solutions,
+                       const std::vector<StudySolver>& solvers) {
   set_n_threads(1);  // there is one rank for each core
   std::unique_ptr<PoissonSolver<3>> solver;
   std::map<std::size_t, std::unique_ptr<EnergySolver<3>>> energy_solvers;
+  std::map<std::size_t, std::unique_ptr<MeshSolver<3>>> mesh_solvers;
+  const Mesh<3> no_mesh = mesh_of_others();
   const auto follow = [&](const Command& command) {
     switch (command.task) {
       case Task::make_solver: {
@@ -184,20 +236,34 @@ void SolverTeam::serve(const Ranks& ranks, const PoissonOptions& options,
         solver->set_eigenvectors({});
         break;
       case Task::make_energy_solver:
-        energy_solvers[command.energy_solver] = smoothfem::make_energy_solver<3>(
+        energy_solvers[command.number] = smoothfem::make_energy_solver<3>(
             nullptr, command.degree, solutions[command.solution], options.natural_groups, ranks);
         break;
       case Task::solve_energy:
-        (void)energy_solvers.at(command.energy_solver)->solve({});
+        (void)energy_solvers.at(command.number)->solve({});
         break;
       case Task::energy_gradient:
-        (void)energy_solvers.at(command.energy_solver)->gradient();
+        (void)energy_solvers.at(command.number)->gradient();
         break;
       case Task::energy_function:
-        (void)energy_solvers.at(command.energy_solver)->function();
+        (void)energy_solvers.at(command.number)->function();
         break;
       case Task::end_energy_solver:
-        energy_solvers.erase(command.energy_solver);
+        energy_solvers.erase(command.number);
+        break;
+      case Task::make_mesh_solver: {
+        const StudySolver& of_study = solvers[command.type];
+        auto& made = mesh_solvers[command.number] = of_study.make<3>();
+        if (of_study.traits.needs_solution) made->use_solution(solutions.front());
+        made->use_ranks(ranks);
+        made->initialize(no_mesh, command.degree);
+        break;
+      }
+      case Task::solve_mesh:
+        (void)mesh_solvers.at(command.number)->solve(no_mesh);
+        break;
+      case Task::end_mesh_solver:
+        mesh_solvers.erase(command.number);
         break;
       case Task::stop:
         break;

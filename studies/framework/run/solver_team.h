@@ -6,6 +6,7 @@
 
 #include "fem/adaptivity/energy_solver.h"
 #include "fem/poisson_solver.h"
+#include "studies/framework/definition/study.h"
 
 namespace smoothfem {
 
@@ -21,9 +22,10 @@ class SolverTeam {
   SolverTeam(const SolverTeam&) = delete;
 
   /// Takes part on a rank other than the root until the root's team ends. options: except the
-  /// degree, which the root sends.
+  /// degree, which the root sends. solvers: the study's, in its order.
   static void serve(const Ranks& ranks, const PoissonOptions& options,
-                    const std::vector<ManufacturedSolution<3>>& solutions);
+                    const std::vector<ManufacturedSolution<3>>& solutions,
+                    const std::vector<StudySolver>& solvers);
 
   /// These are the functions of PoissonSolver, on the root. A new solver replaces the one before.
   /// solutions: the solutions of the other ranks. number: index of the solution to solve.
@@ -42,10 +44,16 @@ class SolverTeam {
       const Mesh<3>& mesh, const PoissonOptions& options,
       const std::vector<ManufacturedSolution<3>>& solutions, std::size_t number);
 
+  int n_ranks() const { return ranks_.size(); }
+
+  /// Makes a solver of which each rank has a part. part: the root's, with all that belongs to it,
+  /// but not initialized. solver: its number in the study. It must end before the team does.
+  std::unique_ptr<MeshSolver<3>> shared(std::unique_ptr<MeshSolver<3>> part, std::size_t solver);
+
  private:
   const Ranks ranks_;
   std::unique_ptr<PoissonSolver<3>> solver_;
-  std::size_t n_energy_solvers_ = 0;  ///< made so far, which is the next one's number
+  std::size_t n_solvers_ = 0;  ///< made so far besides solver_, which is the next one's number
 };
 
 }  // namespace smoothfem
