@@ -184,9 +184,10 @@ def show_results(options, outputs, tables, in_full=False):
 def write_tables(outputs, tables, texts, folder):
     """Writes tables and the texts of these names; returns the paths. Removes tables of solvers that no longer have numbers."""
     made = {table.name for table in outputs.tables}
-    for path in (folder / "tables").glob("table_solver_*.*"):
-        if path.stem not in made:
-            path.unlink(missing_ok=True)
+    for pattern in ("table_solver_*.*", "table_budgets_*.*", "table_orders_*.*"):
+        for path in (folder / "tables").glob(pattern):
+            if path.stem not in made:
+                path.unlink(missing_ok=True)
     files = [(f"{table.name}.{suffix}", write(table)) for table in tables for suffix, write in TABLE_FORMATS.items()]
     files += [(f"{name}.md", outputs.texts[name]) for name in texts]
     return [write_atomically(folder / "tables" / name, text) for name, text in files]

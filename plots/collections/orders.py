@@ -40,28 +40,37 @@ class Order:
         return self.elements, self.degree, self.level, self.family, self.algorithm, self.solution
 
 
-@lru_cache(maxsize=1)
-def orders(results):
-    """All orders, sorted by type of elements, degree, level, family and method; the initial mesh comes first."""
-    found = []
-    for mesh, sizes in sorted(meshes_in_sizes(results).items(), key=lambda entry: (
+def errors_of(solver):
+    """The columns of the errors of a solver; None is Poisson's."""
+    return tuple(ERRORS) if solver is None else tuple(name for name in solver.columns if name.endswith("_error"))
+
+
+@lru_cache(maxsize=8)
+def orders(results, solver=None):
+    """The orders of all errors of a solver, sorted by type of elements, degree, level, family and method; the initial mesh comes first.
+    solver: None is Poisson's."""
+    found, errors = [], errors_of(solver)
+    for mesh, sizes in sorted(meshes_in_sizes(results, solver, errors).items(), key=lambda entry: (
             *entry[0][:2], entry[0][2] != AS_GENERATED, -level_number(entry[0][2]), entry[0][3:])):
         for method in (INITIAL, *results.methods):
-            found += [order_of(mesh, method, error, sizes) for error in ERRORS]
+            found += [order_of(mesh, method, error, sizes) for error in errors]
     return found
 
 
-def meshes_in_sizes(results):
+def meshes_in_sizes(results, solver, errors):
     """What an order belongs to -> {size: [{(method, error): logarithm, "h": logarithm} of each seed]}, with three or more sizes."""
-    rows, members = results.summary, {row["member"]: row for row in results.members.records()}
+    rows = results.summary
+    if solver and not solver.degrees and len(rows):  # all degrees have the same numbers
+        rows = rows.select(degree=min(rows.text("degree")))
+    members = {row["member"]: row for row in results.members.records()}
     records = {}
-    values = {error: rows.number(error) for error in ERRORS}
+    values = {error: rows.number(error) for error in errors}
     invalid = rows.number("n_invalid")
     for k, (name, degree, method) in enumerate(zip(*(rows.text(column) for column in ("member", "degree", "method")))):
         member = members.get(name)
-        if degree and member and member.get("size") and member.get("n_cells"):
+        if (degree or solver) and member and member.get("size") and member.get("n_cells"):
             record = records.setdefault((name, degree), {"h": -np.log(float(member["n_cells"])) / float(member["dimension"])})
-            for error in ERRORS:
+            for error in errors:
                 if invalid[k] == 0 and values[error][k] > 0:
                     record[method, error] = np.log(values[error][k])
     found = {}

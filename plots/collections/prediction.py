@@ -9,6 +9,7 @@ import numpy as np
 from ..results.collection import OUTCOMES, QUALITIES, numbers_of
 from ..statistics.correlation import spearman
 from ..statistics.units import mean_of_units, sign_flips
+from .orders import errors_of
 from .problems import kinds_of_meshes
 
 RECORDS_OF_CURVE = 6  # of each method on a member: the first, the last, and others at equal distances
@@ -45,8 +46,8 @@ class Sample:
 def samples_of(results):
     """A sample for each type of elements and degree. Each method on a member gives as many meshes, however many it recorded; its
     initial mesh and equal meshes of a method count once."""
-    rows = results.iterations
-    found = []
+    rows, found = results.iterations, []
+    outcomes = (*OUTCOMES, *(error for solver in results.solvers for error in errors_of(solver)))
     for elements, degree in kinds_of_meshes(rows):
         chosen = rows.select(elements=elements, degree=degree)
         chosen = chosen.where(chosen.number("n_invalid") == 0)
@@ -56,7 +57,7 @@ def samples_of(results):
         members = chosen.text("member")
         found.append(Sample(elements, degree, members, chosen.text("family"),
                             {name: chosen.number(name) for name in results.qualities},
-                            {name: relative_to_least(chosen.number(name), members) for name in OUTCOMES}))
+                            {name: relative_to_least(chosen.number(name), members) for name in outcomes}))
     return found
 
 

@@ -5,10 +5,10 @@ import math
 
 from ..collections.comparison import INITIAL_MESH, NEXT_DEGREE, SPLIT, at_budgets, gains, gains_by_number, payoffs
 from ..collections.findings import findings_as_markdown
-from ..collections.orders import ERRORS, LEAST_CHANGE, orders
+from ..collections.orders import ERRORS, LEAST_CHANGE, errors_of, orders
 from ..collections.prediction import RECORDS_OF_CURVE, predictions
-from ..collections.problems import problems_of
-from ..results.rows import groups_of
+from ..collections.problems import ERROR, problems_by, problems_of
+from ..results.rows import SOLVING, groups_of
 from ..results.symbols import of_solver, symbol_of
 from .columns import between, number, table_of
 from .gains import gains_table
@@ -29,10 +29,12 @@ def make_collection_tables(results):
     paying = [method for method in results.methods if method == results.methods[0] or method in results.solving]
     alternatives = payoffs(problems, paying)
     of_solvers = {solver: gains_by_number(results, solver) for solver in results.solvers}
-    tables = (members_table(results), smoothing_table(results, found), budget_table(results, budgets),
+    tables = (members_table(results), smoothing_table(results, found), budget_table(results, {ERROR: budgets}),
               payoff_table(results, alternatives), orders_table(results, orders(results)), prediction_table(results, predicted),
               gains_table(results), pairs_table(results),
-              *(solver_table(results, solver, by_number) for solver, by_number in of_solvers.items()))
+              *(solver_table(results, solver, by_number) for solver, by_number in of_solvers.items()),
+              *(budget_table(results, budgets_by_error(results, solver), solver) for solver in results.solvers),
+              *(orders_table(results, orders(results, solver), solver) for solver in results.solvers))
     return ([table for table in tables if table.keys],
             findings_as_markdown(results, problems, found, budgets, alternatives, predicted, orders(results),
                                  of_solvers.values()))
@@ -104,19 +106,28 @@ def smoothing_table(results, found):
          "adjusted for all methods of these meshes (Holm).", LEVELS, INTERVALS])
 
 
-def budget_table(results, found):
-    """What each method reaches in a given time."""
-    rows = list(dict.fromkeys((entry.elements, entry.degree, entry.level, entry.method) for entry in found))
-    by_key = {(entry.elements, entry.degree, entry.level, entry.method, entry.budget): entry for entry in found}
-    budgets = sorted({entry.budget for entry in found})
+def budgets_by_error(results, solver):
+    """Column -> gains within budgets, of the errors of a solver that records times."""
+    if not any(f"{solver.label}.{name}" in solver.columns for name in SOLVING):
+        return {}
+    return {name: at_budgets(problems_by(results, solver, name), results.methods) for name in errors_of(solver)}
+
+
+def budget_table(results, by_error, solver=None):
+    """What each method reaches in a given time. by_error: column -> gains within budgets. solver: None is Poisson's."""
+    by_key = {(name, entry.elements, entry.degree, entry.level, entry.method, entry.budget): entry
+              for name, found in by_error.items() for entry in found}
+    rows, budgets = list(dict.fromkeys(key[:-1] for key in by_key)), sorted({key[-1] for key in by_key})
     first = [by_key[(*row, budgets[0])] for row in rows]
+    errors = [("Error", [text_cell(symbol_of(of_solver(row[0])[1]).text) for row in rows])] if solver else []
     return table_of(
-        results, "table_budgets", "error after equal smoothing times",
-        [*kind_columns(first), ("Method", [text_cell(results.title(entry.method)) for entry in first])],
+        results, f"table_budgets_{solver.label}" if solver else "table_budgets",
+        f"errors of {solver.title} after equal smoothing times" if solver else "error after equal smoothing times",
+        [*errors, *kind_columns(first), ("Method", [text_cell(results.title(entry.method)) for entry in first])],
         [(f"{budget:g} solutions", [("", [number(by_key[(*row, budget)].ratio, ".3f") for row in rows]),
                                     ("interval", [between(by_key[(*row, budget)].interval, ".3f") for row in rows])])
          for budget in budgets],
-        ["True H1 error over that of the initial mesh, geometric means. A budget is a multiple of the time of one solution on the initial "
+        [("Error" if solver else "True H1 error") + " over that of the initial mesh, geometric means. A budget is a multiple of the time of one solution on the initial "
          "mesh. The mesh is the last one that was recorded within the budget; after a method's end it is its result. Without a valid "
          "mesh the ratio is 1.", LEVELS, INTERVALS])
 
@@ -163,19 +174,21 @@ def payoff_table(results, found):
          "smoothing pays. Where the method has no valid result, the initial mesh is solved after all.", *no_times, LEVELS, INTERVALS])
 
 
-def orders_table(results, found):
-    """With which power of h the errors fall, before and after smoothing. One row for both errors."""
+def orders_table(results, found, solver=None):
+    """With which power of h the errors fall, before and after smoothing. One row for all errors. solver: None is Poisson's."""
     rows = {}
     for entry in found:
         rows.setdefault((*entry.mesh, entry.method), {})[entry.error] = entry
-    first = [of_row["h1_error"] for of_row in rows.values()]
+    first = [next(iter(of_row.values())) for of_row in rows.values()]
+    names = ERRORS if solver is None else {error: symbol_of(of_solver(error)[1]).text for error in dict.fromkeys(e.error for e in found)}
     several = [(heading, [text_cell(getattr(entry, name) or "first") for entry in first])
                for heading, name in (("Algorithm", "algorithm"), ("Solution", "solution")) if len({getattr(entry, name) for entry in first}) > 1]
     return table_of(
-        results, "table_orders", "orders of the errors in the mesh size",
+        results, f"table_orders_{solver.label}" if solver else "table_orders",
+        f"orders of the errors of {solver.title} in the mesh size" if solver else "orders of the errors in the mesh size",
         [*kind_columns(first), ("Family", [text_cell(entry.family) for entry in first]), *several,
          ("Method", [text_cell(results.title(entry.method)) for entry in first])],
-        [group for error, name in ERRORS.items() for group in (
+        [group for error, name in names.items() for group in (
             (f"Order of {name}", [("", [number(of_row[error].order) for of_row in rows.values()]),
                                   ("interval", [between(of_row[error].interval) for of_row in rows.values()])]),
             (f"Change of {name}", [("", [number(of_row[error].change, "z.2f") for of_row in rows.values()]),

@@ -13,6 +13,7 @@ from plots.__main__ import main
 from plots.collections.findings import what_orders
 from plots.collections.orders import changed, orders
 from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, SUMMARY, read_collection_results
+from plots.results.rows import read_rows
 from plots.statistics.lines import slope
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
@@ -52,6 +53,16 @@ class Orders(InFolder):
         """Orders by family, method and error, and the results."""
         results = read_collection_results(write_sizes(self.folder / "r", **options))
         return {(entry.family, entry.method, entry.error): entry for entry in orders(results)}, results
+
+    def test_errors_of_a_solver_have_a_table_of_orders(self):
+        folder = write_sizes(self.folder / "r")
+        for name in ("summary.csv", "iterations.csv"):
+            rows = [{**row, "beam.energy_error": row["h1_error"]} for row in read_rows(folder / name).records()]
+            write_csv(folder / name, tuple(rows[0]), rows)
+        self.assertEqual(main([str(folder), "--quiet", "--no-figures"]), 0)
+        line, = [line for line in (folder / "tables" / "table_orders_beam.md").read_text().splitlines() if "| a | Better |" in line]
+        self.assertIn("| 1.00 | 1.00 to 1.00 | 0.50 | 0.50 to 0.50 | 4 |", line)
+        self.assertIn("Order of Energy error", (folder / "tables" / "table_orders_beam.md").read_text())
 
     def test_known_orders_are_found(self):
         found, results = self.found()

@@ -5,6 +5,7 @@ import numpy as np
 
 from plots.__main__ import main
 from plots.collections.comparison import gains_by_number
+from plots.collections.prediction import predictions
 from plots.results.collection import read_collection_results
 from plots.results.rows import read_rows
 from plots.tests.synthetic_results import write_csv
@@ -67,6 +68,21 @@ class SolversOfCollections(InFolder):
         text = (tables / "findings.md").read_text()
         self.assertIn("- Triangles, degree 1, distorted to 0.5: Good leaves 0.250 (0.250 to 0.250) of the H1 error of beam, on 8 problems", text)
         self.assertIn("- Triangles, distorted to 0.5, bytes of size over that of Good: Idle 2.000 (2.000 to 2.000); different from Good", text)
+
+    def test_errors_after_equal_times(self):
+        """`good` has ended after 0.5 s, a quarter of one solution, with a quarter of beam's error."""
+        self.results()
+        self.assertEqual(main([str(self.collection), "--quiet", "--no-figures"]), 0)
+        lines = (self.collection / "tables" / "table_budgets_beam.md").read_text().splitlines()
+        line, = [line for line in lines if line.startswith("| H1 error | triangles | 1 | 0.5 | Good |")]
+        self.assertIn("0.250", line.split("|")[8])
+        self.assertFalse((self.collection / "tables" / "table_budgets_size.md").exists())  # no times
+
+    def test_quality_predicts_their_errors(self):
+        """The H1 error of beam falls as q_mean rises."""
+        found = {(p.quality, p.outcome, p.degree): p.mean for p in predictions(self.results())}
+        self.assertAlmostEqual(found["q_mean", "beam.h1_error", "1"], -1.0)
+        self.assertNotIn(("q_mean", "size.bytes", "1"), found)
 
     def test_collections_without_other_solvers_have_none(self):
         self.assertEqual(read_collection_results(self.collection).solvers, ())
