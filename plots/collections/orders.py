@@ -49,7 +49,7 @@ def errors_of(solver):
 def orders(results, solver=None):
     """The orders of all errors of a solver, sorted by type of elements, degree, level, family and method; the initial mesh comes first.
     solver: None is Poisson's."""
-    found, errors = [], errors_of(solver)
+    found, errors = [], [name for name in errors_of(solver) if np.isfinite(results.summary.number(name)).any()]
     for mesh, sizes in sorted(meshes_in_sizes(results, solver, errors).items(), key=lambda entry: (
             *entry[0][:2], entry[0][2] != AS_GENERATED, -level_number(entry[0][2]), entry[0][3:])):
         for method in (INITIAL, *results.methods):

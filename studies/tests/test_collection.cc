@@ -103,11 +103,14 @@ TEST_F(Collections, SolversThatFailOnAMemberLeaveItsFieldsEmpty) {
   fs::create_directories(file("meshes"));
   write_mesh(file("meshes/a.mesh"), shaken_grid(6, 0.2));
   write_mesh(file("meshes/b.mesh"), shaken_grid(3, 0.2));
-  file_with("all.prm",
-            "set kind = collection\nset collection = meshes/*\nset methods = laplace\n"
-            "set timing runs = 1\nset solvers = small\nsubsection solver small\n"
-            " set command = sh -c 'test $(wc -l < {in}) -lt 60 && echo n 7, m 8' {in}\n"
-            " set format = mesh\n set number n = n ([0-9]+)\n set number m = m ([0-9]+)\nend\n");
+  file_with(
+      "all.prm",
+      "set kind = collection\nset collection = meshes/*\nset methods = laplace\n"
+      "set timing runs = 1\nset solvers = small, beam\n"
+      "subsection solver beam\n set type = elasticity\n set degrees = 1\n set u = x*y ; x\nend\n"
+      "subsection solver small\n"
+      " set command = sh -c 'test $(wc -l < {in}) -lt 60 && echo n 7, m 8' {in}\n"
+      " set format = mesh\n set number n = n ([0-9]+)\n set number m = m ([0-9]+)\nend\n");
   const Outcome outcome = smoothfem({"study", "all.prm", "--out", "out", "--no-figures"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const CsvTable summary = table("out/summary.csv");
@@ -119,6 +122,7 @@ TEST_F(Collections, SolversThatFailOnAMemberLeaveItsFieldsEmpty) {
               ::testing::HasSubstr("small: failed: it ended with exit code"));
   EXPECT_EQ(solved[1].at("small.n"), "7");
   EXPECT_EQ(solved[1].at("small.m"), "8");
+  EXPECT_LT(std::stod(failed[1].at("beam.energy_error")), 1.0);
   EXPECT_EQ(solved[1].at("status"), "ok");
 }
 

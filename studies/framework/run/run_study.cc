@@ -64,7 +64,8 @@ class StudyRun {
         differences_from(earlier_, study_.header, mesh_facts(), study_.methods, study_.solvers);
     if (earlier_.status == "complete" && changes_.empty() && !options_.retime)
       return report_complete();
-    require_support_of_solvers();
+    // A run that makes meshes only has no MPI.
+    if (options_.until != RunUntil::meshes) require_support_of_solvers();
     begin_writing();
     if (options_.until == RunUntil::meshes) return write_provenance("interrupted");
     times_.measure("smoothing", [&] { smooth_meshes(); });
