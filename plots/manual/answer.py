@@ -10,7 +10,8 @@ import numpy as np
 from ..collections.comparison import share
 from ..collections.problems import AS_GENERATED, WORSE, problems_of
 from ..results.collection import ends, read_collection_results
-from ..results.rows import read_rows
+from ..results.rows import entries, read_rows
+from ..results.smoothing import read_provenance
 from ..statistics.units import geometric, mean_of_units
 from .blocks import table
 
@@ -24,6 +25,8 @@ SOLVER = "jacobi_cg_iterations"
 FEWEST_FAMILIES = 3  # of an interval that says something
 SURE = 0.05  # adjusted p-values below it tell methods apart
 PERCENT = 100
+LONG = 1.5  # times of the first assembly over a later one that are too long
+LOWEST = 3  # published hexahedral meshes in a table
 FAR_BELOW = 0.25  # times the median of q_min of meshes as generated
 
 
@@ -76,6 +79,10 @@ class Fields:
         """Mean qualities of the meshes as generated, or another column of theirs."""
         of_members = [rows.select(elements=elements, distortion="").number(column) for rows in self.members.values()]
         return [quality for qualities in of_members for quality in qualities if np.isfinite(quality)]
+
+    def low_limit(self, elements):
+        """The limit of a q_min far below those of meshes as generated."""
+        return FAR_BELOW * np.median(self.qualities(elements, "q_min") or [0.0])
 
     def iterations(self, elements, level, degree):
         """Solver iterations after over before smoothing, as a geometric mean over domains."""
@@ -156,12 +163,11 @@ def what_was_run(found):
     counts = [Counter(rows.text("status")) for rows in found.members.values()]
     complete, total = sum(count["complete"] for count in counts), sum(sum(count.values()) for count in counts)
     folders = " and ".join(f"`results/reference/{study}`" for study in found.studies)
-    qualities = "; ".join(f"{elements} {spread(found.qualities(elements))}" for elements in found.elements)
-    smallest = "; ".join(f"{elements} {spread(found.qualities(elements, 'q_min'))}, median {np.median(found.qualities(elements, 'q_min')):.2f}"
-                         for elements in found.elements)
-    return (f"{found.n_meshes():,} meshes of {found.domains()} have {least:,} to {most:,} nodes. Each mesh has five problems; {complete:,} of "
-            f"{total:,} are complete ({folders}). The mean quality `q_mean` of meshes as generated (mean ratio, at most 1): {qualities}. "
-            f"Their smallest quality `q_min`: {smallest}.")
+    rows = [(elements, spread(found.qualities(elements)), spread(found.qualities(elements, "q_min")),
+             f"{np.median(found.qualities(elements, 'q_min')):.2f}", f"{found.low_limit(elements):.2f}") for elements in found.elements]
+    return (f"{found.n_meshes():,} meshes of {found.domains()} have {least:,} to {most:,} nodes. Each mesh has five problems, {total:,} in all; "
+            f"{complete:,} have complete results ({folders}).\n\nQualities of the meshes as generated (mean ratio, at most 1):\n\n"
+            + table(("elements", "`q_mean`", "`q_min`", "median of `q_min`", "limit: a quarter of the median"), rows, "lrrrr"))
 
 
 def levels(found):
@@ -194,8 +200,8 @@ def low_minimum(found):
         ratios = {"h1_error": after.number("h1_error") / initial.number("h1_error"), SOLVER: after.number(SOLVER) / initial.number(SOLVER)}
         meshes = np.array([member.rsplit(".", 1)[0] for member in initial.text("member")])
         for elements in found.elements:
-            limit = FAR_BELOW * np.median(found.qualities(elements, "q_min") or [0.0])
-            low = (initial.text("elements") == elements) & (initial.text("distortion") == "") & (initial.number("q_min") < limit)
+            low = (initial.text("elements") == elements) & (initial.text("distortion") == "")
+            low &= initial.number("q_min") < found.low_limit(elements)
             for mesh in dict.fromkeys(meshes[low]):
                 here = low & (meshes == mesh)
                 cells = [mean_ratio(ratios[column][here & (initial.text("degree") == degree)]) for degree in "12" for column in ratios]
@@ -204,7 +210,30 @@ def low_minimum(found):
     return ("Meshes as generated whose q_min is below a quarter of the median of their elements (a limit chosen after looking). Each number is after over "
             "before smoothing, a geometric mean over five problems:\n\n"
             + table(("domain", "elements", "q_min", "q_mean", "H1 error, degree 1", "CG iterations with Jacobi", "degree 2", "iterations"),
-                    rows, "llrrrrrr"))
+                    rows, "llrrrrrr") + "\n\n" + published_hexahedra(found.reference, found.low_limit("hexahedra")))
+
+
+def published_hexahedra(reference, limit):
+    """What smoothing does to the published hexahedral meshes with the lowest minimum."""
+    found = []
+    for study, name in SETS.items():
+        initial, after = (rows.select(elements="hexahedra") for rows in pairs_of(reference, study))
+        meshes = np.array([member.rsplit(".", 1)[0] for member in initial.text("member")])
+        for mesh in dict.fromkeys(meshes):
+            here = meshes == mesh
+            ratios = [mean_ratio((after.number(column) / initial.number(column))[here & (initial.text("degree") == degree)])
+                      for degree in "12" for column in ("h1_error", SOLVER)]
+            found.append((initial.number("q_min")[here][0], name, mesh, initial.number("q_mean")[here][0], after.number("q_min")[here][0], ratios))
+    found.sort(key=lambda row: row[0])
+    gains = [row for row in tables_of(reference, "collection-hexalab", "table_smoothing") if row["Method"] == REFERENCE_METHOD]
+    below = sum(row[0] < limit for row in found)
+    lines = [(name, f"`{mesh}`", f"{lowest:.2f}", f"{mean:.2f}", f"{then:.2f}", *ratios)
+             for lowest, name, mesh, mean, then, ratios in found[:LOWEST]]
+    return (f"The table has no hexahedra. Of {len(found)} published hexahedral meshes {below} {'has' if below == 1 else 'have'} a q_min below the limit. The "
+            f"H1 errors of HexaLab's meshes, after over before smoothing, are {' and '.join(with_interval(row, 'Error / initial') for row in gains)} "
+            f"at degrees 1 and 2. The {LOWEST} published hexahedral meshes with the lowest q_min:\n\n"
+            + table(("set", "mesh", "q_min", "q_mean", "q_min after", "H1 error, degree 1", "CG iterations with Jacobi", "degree 2", "iterations"),
+                    lines, "llrrrrrrr"))
 
 
 def mean_ratio(ratios):
@@ -235,7 +264,17 @@ def bad_meshes(reference):
                 "h1_error", "e_h1", "cg_iterations", "jacobi_cg_iterations"))))
     return ("Initial over GETMe (`results/reference/gear`, published meshes; `results/reference/volume`, stand-in meshes):\n\n"
             + table(("mesh", "q_mean before", "degree", "true H1 error", "e_H1 of the thesis", "CG iterations", "with Jacobi"),
-                    rows, "lrrrrrr"))
+                    rows, "lrrrrrr") + "\n\n" + weighted_laplace(gear))
+
+
+def weighted_laplace(gear):
+    """Where area-weighted Laplace has the lowest true H1 error of the published gears."""
+    cases = [(mesh, degree) for mesh in ("tri", "quad") for degree in "12"]
+    best = [min((float(row["h1_error"]), method) for (name, d, method), row in gear.items() if (name, d) == case)[1] for case in cases]
+    lower = [PERCENT * (1 - factor(gear, *case, "h1_error", "getme", "weighted-laplace")) for case in cases]
+    minima = [" and ".join(f"{float(gear[mesh, '1', method]['q_min']):.2f}" for mesh in ("tri", "quad")) for method in ("weighted-laplace", "getme")]
+    return (f"On the gears area-weighted Laplace has the lowest true H1 error of all methods in {best.count('weighted-laplace')} of {len(cases)} cases, "
+            f"{spread(lower, '.1f')} % below that of GETMe. Its `q_min` is {minima[0]} (triangles, quadrilaterals), that of GETMe {minima[1]}.")
 
 
 def methods(found):
@@ -250,8 +289,8 @@ def methods(found):
     rows = [(method, LEVELS[level], *(cell(elements, level, method) for elements in found.elements))
             for method in found.methods[1:] for level in ("as generated", "0.45")]
     return ("H1 error over that of GETMe simultaneous, degree 1, at the methods' ends (`table_smoothing`). A method fails if it has no "
-            "result or invalid cells; the initial mesh then counts. A star: different by a test over domains (p below 0.05 after "
-            "correction), however small the difference is.\n\n"
+            "result or invalid cells; the initial mesh then counts. A star: a test over domains finds a difference (p below 0.05 after "
+            "correction). It can be too small for two digits, as in 1.00*.\n\n"
             + table(("method", "initial mesh", *found.elements), rows, "ll" + "r" * len(found.elements)))
 
 
@@ -269,7 +308,8 @@ def budgets(found):
             cells.append(f"{best['Method']} {float(best[name]):.2f} ({float(reference[name]):.2f})")
         lines.append((elements, *cells))
     return ("Method with the lowest mean ratio within a budget of smoothing time, in solutions on the initial mesh; in parentheses the ratio "
-            "of GETMe simultaneous (degree 1, distorted to 0.6, `table_budgets`):\n\n" + table(("elements", *names), lines))
+            "of GETMe simultaneous (degree 1, distorted to 0.6, `table_budgets`). Each method is chosen after looking; of methods with the same three "
+            "digits the first of the table above is named:\n\n" + table(("elements", *names), lines))
 
 
 def clusters(reference):
@@ -299,16 +339,33 @@ def cost(found):
     rows = found.rows("table_payoff")
     ways = {REFERENCE_METHOD: "smoothed", "unsmoothed, cells split": "every cell split", "unsmoothed, degree d + 1": "next degree"}
     by_key = {(row["Elements"], row["d"], row["Level"], row["Instead"]): row for row in rows}
-    lines = []
-    for elements in found.elements:
-        for level, name in LEVELS.items():
-            cells = [(by_key[elements, "1", level, way]["Error / initial"], by_key[elements, "1", level, way]["Time / initial"])
-                     for way in ways]
-            lines.append((elements, name, *(f"{float(error):.2f} in {float(time):.1f}" for error, time in cells)))
+    lines = [(elements, name, *(f"{float(by_key[elements, '1', level, way][column]):{form}}" for way in ways
+                                for column, form in (("Error / initial", ".2f"), ("Time / initial", ".1f"))))
+             for elements in found.elements for level, name in LEVELS.items()]
+    heading = [text for way in ways.values() for text in (f"{way}: error", "time")]
     second = [float(row["Time / initial"]) for row in rows if (row["d"], row["Instead"]) == ("2", REFERENCE_METHOD)]
-    return ("H1 error and total time, over those of the unsmoothed mesh with linear elements (`table_payoff`):\n\n"
-            + table(("elements", "initial mesh", *ways.values()), lines, "llrrr")
-            + f"\n\nWith quadratic elements, smoothing and solving take {spread(second)} times as long as solving on the unsmoothed mesh.")
+    return ("H1 error, and total time to get it, each over that of one solution on the unsmoothed mesh with linear elements "
+            "(`table_payoff`):\n\n" + table(("elements", "initial mesh", *heading), lines, "ll" + "rr" * len(ways))
+            + f"\n\nWith quadratic elements, smoothing and solving take {spread(second)} times as long as solving on the unsmoothed mesh.\n\n"
+            + first_solutions(found))
+
+
+def first_solutions(found):
+    """How much too long the first solution of a mesh takes: assembly does the same work before and after smoothing."""
+    def longer(elements, level, degree):
+        """Assembly times of the initial mesh over those of the smoothed one."""
+        ratios = np.concatenate([(initial.number("assembly_seconds") / after.number("assembly_seconds"))[
+            (initial.text("elements") == elements) & (initial.text("degree") == degree)
+            & (initial.text("distortion") == ("" if level == AS_GENERATED else level))] for initial, after in found.pairs])
+        return ratios[np.isfinite(ratios)]
+    first, second = ([np.median(longer(elements, AS_GENERATED, degree)) for elements in found.elements] for degree in "12")
+    long = [PERCENT * np.mean(longer(elements, level, "1") > LONG) for elements in found.elements for level in LEVELS]
+    return ("The time of the unsmoothed mesh is too long, as it is solved first. Assembly does the same work before and after smoothing. On meshes as "
+            "generated, degree 1, it takes longer on the initial mesh. The medians are "
+            f"{', '.join(f'{ratio:.2f} times ({elements})' for ratio, elements in zip(first, found.elements))}. At degree 2, which is solved later, "
+            f"they are {spread(second)}. At degree 1 it takes more than {LONG} times as long on {spread(long, '.0f')} % of the problems of a type and a "
+            "level. So a time below 1 on a good mesh is no gain of smoothing. The times of split cells and of the next degree are too small for the "
+            "same reason.")
 
 
 def prediction(found):
@@ -339,6 +396,34 @@ def converged(reference):
     return ("How much of an error is left by CG? On the published gears CG was run to a residual of 1e-13, too (`results/reference/reasons/"
             f"gear-converged`). The errors differ from those at 1e-8 by at most: {told('initial')} on the initial meshes; {told('getme')} on "
             "GETMe's meshes.")
+
+
+def space_part(reference):
+    """The true error over the least one on the published gears: the page on finite elements."""
+    gear = of_study(reference, "gear")
+    titles = {"initial": "initial", "getme": "GETMe", "global-optimization": "Global Optimization"}
+
+    def over(mesh, degree, method):
+        row = gear[mesh, degree, method]
+        return float(row["h1_error"]) / float(row["h1_best"])
+    rows = [(name, title, *(f"{float(gear[mesh, '1', method][column]):.1f}" for column in ("e_h1", "h1_error", "h1_best")),
+             f"{over(mesh, '1', method):.3f}")
+            for mesh, name in (("tri", "triangles"), ("quad", "quadrilaterals")) for method, title in titles.items()]
+    second = [over(mesh, "2", method) for mesh in ("tri", "quad") for method in titles]
+    return ("Published gears, degree 1 (`results/reference/gear`):\n\n"
+            + table(("elements", "mesh", "`e_h1`", "`h1_error`", "`h1_best`", "`h1_error` / `h1_best`"), rows, "llrrrr")
+            + f"\n\nAt degree 2 the quotients are {spread(second, '.4f')}.")
+
+
+def points_of_hexahedra(reference):
+    """What a rule for each cell costs on distorted hexahedra: the page on finite elements."""
+    volume = of_study(reference, "volume")
+    meshes = list(dict.fromkeys(mesh for mesh, _, _ in volume if mesh.startswith("hex")))
+    longer = [factor(volume, mesh, degree, "assembly_seconds") for mesh in meshes for degree in "12"]
+    runs = {mesh["name"]: mesh for mesh in entries(read_provenance(reference / "volume" / "provenance.json"), "meshes")}
+    most = max(max(runs[mesh]["most_hexahedron_points"].values()) for mesh in meshes)
+    return (f"This takes time on distorted meshes. In the study `volume` with `auto`, cells of the initial hexahedra get up to {most} points per direction. "
+            f"Assembly then takes {spread(longer, '.0f')} times as long as on GETMe's mesh ({len(meshes)} seeds, degrees 1 and 2).")
 
 
 ORDERS = {"orders": "square and L-shape, triangles and quadrilaterals, five sizes, distorted to 0.45",
@@ -376,14 +461,17 @@ def practice(reference):
             continue
         gains = {(row["Elements"], row["d"]): row for row in tables_of(reference, study, "table_smoothing")
                  if row["Method"] == REFERENCE_METHOD and row["Level"] == "as generated"}
+        initial, _ = pairs_of(reference, study)
         for elements in dict.fromkeys(key[0] for key in gains):
             both = [gains.get((elements, degree)) for degree in "12"]
-            lines.append((name, elements, both[0]["Families"], *(of_families(row) if row else "" for row in both),
+            chosen = initial.select(elements=elements)
+            lines.append((name, elements, both[0]["Families"], *(spread(chosen.number(column)) for column in ("q_mean", "q_min")), *(of_families(row) if row else "" for row in both),
                           *(f"{row['Worse (%)']} %" if row else "" for row in both)))
     return ("H1 error after over before smoothing by GETMe simultaneous, on published meshes as they are, and on tangled ones after "
             "untangling (`table_smoothing` of each set; [the sets](../how-to/many-meshes.md#published-meshes)). A family is a model or a domain; "
             "intervals are given for three families or more. Worse: share of problems whose error rises by more than 1 %.\n\n"
-            + table(("set", "elements", "families", "degree 1", "degree 2", "worse, degree 1", "degree 2"), lines, "llrrrrr"))
+            + table(("set", "elements", "families", "q_mean before", "q_min before", "degree 1", "degree 2", "worse, degree 1", "degree 2"),
+                    lines, "llrrrrrrr"))
 
 
 def moving(reference):
