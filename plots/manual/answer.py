@@ -3,31 +3,25 @@
 field-large and of collections of public meshes, and from the rows of gear, volume and energy-field."""
 
 from collections import Counter
-from functools import lru_cache
 
 import numpy as np
 
 from ..collections.comparison import share
 from ..collections.problems import AS_GENERATED, WORSE, problems_of
-from ..results.collection import ends, read_collection_results
-from ..results.rows import entries, read_rows
-from ..results.smoothing import read_provenance
+from ..results.collection import read_collection_results
+from ..results.rows import read_rows
 from ..statistics.units import geometric, mean_of_units
 from .blocks import table
+from .gears import bad_meshes, clusters, minimum
+from .published import practice, published_hexahedra
+from .reference import METHOD, PERCENT, REFERENCE_METHOD, SOLVER, mean_ratio, pairs_of, spread, tables_of, with_interval
 
-METHOD, REFERENCE_METHOD = "getme-simultaneous", "GETMe simultaneous"  # name and title of the first method of the studies
 FIELDS = ("field", "field-volume")
 KINDS = {"field": "planar", "field-volume": "volume"}
 ELEMENTS = ("triangles", "quadrilaterals", "tetrahedra", "hexahedra")
-SETS = {"collection-mesquite": "Mesquite", "collection-sfepy": "SfePy", "collection-hexalab": "HexaLab"}
 LEVELS = {"as generated": "as generated", "0.6": "distorted to 0.6", "0.45": "distorted to 0.45"}
-SOLVER = "jacobi_cg_iterations"
-FEWEST_FAMILIES = 3  # of an interval that says something
 SURE = 0.05  # adjusted p-values below it tell methods apart
-PERCENT = 100
 LONG = 1.5  # times of the first assembly over a later one that are too long
-LOWEST = 3  # published hexahedral meshes in a table
-BAD = 0.6  # mean quality of the less distorted meshes of the studies
 FAR_BELOW = 0.25  # times the median of q_min of meshes as generated
 
 
@@ -95,35 +89,6 @@ class Fields:
             logs += list(np.log(ratios[np.isfinite(ratios)]))
             domains += list(initial.text("family")[chosen][np.isfinite(ratios)])
         return geometric(mean_of_units(logs, domains))[0]
-
-
-@lru_cache(maxsize=None)
-def tables_of(reference, study, name):
-    """The rows of a table of a collection."""
-    return read_rows(reference / study / "tables" / f"{name}.csv").records()
-
-
-def pairs_of(reference, study):
-    """(initial meshes, results of the reference method) of a collection, aligned by member and degree."""
-    rows = read_rows(reference / study / "summary.csv")
-    both = ends(rows.where(rows.text("degree") != "")).select(method=METHOD)
-    return both.where(slice(0, None, 2)), both.where(slice(1, None, 2))
-
-
-def interval(text):
-    """"0.95 to 1.02" of a table as "0.95 to 1.02" with two digits."""
-    return " to ".join(f"{float(end):.2f}" for end in text.split(" to "))
-
-
-def with_interval(row, column):
-    """"0.98 (0.95 to 1.02)"."""
-    return f"{float(row[column]):.2f} ({interval(row[column + ' interval'])})" if row[column + " interval"] else f"{float(row[column]):.2f}"
-
-
-def spread(numbers, form=".2f"):
-    """"0.95 to 1.02"; one number if both are equal."""
-    ends_of_range = dict.fromkeys(f"{number:{form}}" for number in (min(numbers), max(numbers)))
-    return " to ".join(ends_of_range)
 
 
 def in_short(found):
@@ -214,91 +179,6 @@ def low_minimum(found):
                     rows, "llrrrrrr") + "\n\n" + published_hexahedra(found.reference, found.low_limit("hexahedra")))
 
 
-def published(reference):
-    """The published meshes, lowest minimum first: (set, elements, mesh, q_min and q_mean before, q_min after, ratios of error and
-    iterations at degrees 1 and 2)."""
-    found = []
-    for study, name in SETS.items():
-        initial, after = pairs_of(reference, study)
-        meshes = np.array([member.rsplit(".", 1)[0] for member in initial.text("member")])
-        for mesh in dict.fromkeys(meshes):
-            here = meshes == mesh
-            ratios = [geometric_mean((after.number(column) / initial.number(column))[here & (initial.text("degree") == degree)])
-                      for degree in "12" for column in ("h1_error", SOLVER)]
-            found.append((name, initial.text("elements")[here][0], mesh, *(initial.number(column)[here][0] for column in ("q_min", "q_mean")),
-                          after.number("q_min")[here][0], ratios))
-    return sorted(found, key=lambda row: row[3])
-
-
-def bad_published(reference):
-    """What smoothing does to the published meshes of low mean quality, as a sentence."""
-    ratios = [ratios[0] for _, _, _, _, mean, _, ratios in published(reference) if mean <= BAD]
-    return (f"{len(ratios)} of these meshes have a q_mean of {BAD} or less before smoothing. Their H1 error at degree 1 becomes {spread(ratios)} of that "
-            f"before. It falls by more than 1 % on {sum(ratio < 2 - WORSE for ratio in ratios)} of them, and rises by more than 1 % on "
-            f"{sum(ratio > WORSE for ratio in ratios)}.")
-
-
-def published_hexahedra(reference, limit):
-    """What smoothing does to the published hexahedral meshes with the lowest minimum."""
-    found = [row for row in published(reference) if row[1] == "hexahedra"]
-    gains = [row for row in tables_of(reference, "collection-hexalab", "table_smoothing") if row["Method"] == REFERENCE_METHOD]
-    below = sum(row[3] < limit for row in found)
-    lines = [(name, f"`{mesh}`", *(f"{quality:.2f}" for quality in qualities), *(f"{ratio:.2f}" for ratio in ratios))
-             for name, _, mesh, *qualities, ratios in found[:LOWEST]]
-    return (f"The table has no hexahedra. Of {len(found)} published hexahedral meshes {below} {'has' if below == 1 else 'have'} a q_min below the "
-            "limit. The H1 errors of HexaLab's meshes, after over before smoothing, are "
-            f"{' and '.join(with_interval(row, 'Error / initial') for row in gains)} at degrees 1 and 2. The {LOWEST} published hexahedral meshes with "
-            "the lowest q_min (geometric means over their problems):\n\n"
-            + table(("set", "mesh", "q_min", "q_mean", "q_min after", "H1 error, degree 1", "CG iterations with Jacobi", "degree 2", "iterations"),
-                    lines, "llrrrrrrr"))
-
-
-def geometric_mean(ratios):
-    """The geometric mean of the known ratios."""
-    return float(np.exp(np.nanmean(np.log(ratios))))
-
-
-def mean_ratio(ratios):
-    """The geometric mean of the known ratios, as a text."""
-    return f"{geometric_mean(ratios):.2f}"
-
-
-def of_study(reference, study):
-    """(mesh, degree, method) -> record of a summary."""
-    return {(row["mesh"], row["degree"], row["method"]): row
-            for row in read_rows(reference / study / "summary.csv").records()}
-
-
-def factor(rows, mesh, degree, column, over="getme", under="initial"):
-    """The number of one method's mesh over that of another."""
-    return float(rows[mesh, degree, under][column]) / float(rows[mesh, degree, over][column])
-
-
-def bad_meshes(reference):
-    """Factors on the published gears and on the flange: true errors, interpolated ones, iterations."""
-    gear, volume = of_study(reference, "gear"), of_study(reference, "volume")
-    rows = []
-    for name, study, mesh in (("gear, triangles", gear, "tri"), ("gear, quadrilaterals", gear, "quad"),
-                              ("flange, tetrahedra", volume, "tet"), ("flange, hexahedra", volume, "hex")):
-        quality = float(study[mesh, "1", "initial"]["q_mean"])
-        for degree in "12":
-            rows.append((name, f"{quality:.2f}", degree, *(f"{factor(study, mesh, degree, column):.1f}" for column in (
-                "h1_error", "e_h1", "cg_iterations", "jacobi_cg_iterations"))))
-    return ("Initial over GETMe (`results/reference/gear`, published meshes; `results/reference/volume`, stand-in meshes):\n\n"
-            + table(("mesh", "q_mean before", "degree", "true H1 error", "e_H1 of the thesis", "CG iterations", "with Jacobi"),
-                    rows, "lrrrrrr") + "\n\n" + weighted_laplace(gear))
-
-
-def weighted_laplace(gear):
-    """Where area-weighted Laplace has the lowest true H1 error of the published gears."""
-    cases = [(mesh, degree) for mesh in ("tri", "quad") for degree in "12"]
-    best = [min((float(row["h1_error"]), method) for (name, d, method), row in gear.items() if (name, d) == case)[1] for case in cases]
-    lower = [PERCENT * (1 - factor(gear, *case, "h1_error", "getme", "weighted-laplace")) for case in cases]
-    minima = [" and ".join(f"{float(gear[mesh, '1', method]['q_min']):.2f}" for mesh in ("tri", "quad")) for method in ("weighted-laplace", "getme")]
-    return (f"On the gears area-weighted Laplace has the lowest true H1 error of all methods in {best.count('weighted-laplace')} of {len(cases)} cases, "
-            f"{spread(lower, '.1f')} % below that of GETMe. Its `q_min` is {minima[0]} (triangles, quadrilaterals), that of GETMe {minima[1]}.")
-
-
 def methods(found):
     """The errors of methods at their ends, over those of the reference method."""
     over = f"Error / {REFERENCE_METHOD}"
@@ -334,28 +214,6 @@ def budgets(found):
             "digits the first of the table above is named:\n\n" + table(("elements", *names), lines))
 
 
-def clusters(reference):
-    """What smart Laplace and weighted Laplace do on the published gears."""
-    gear = of_study(reference, "gear")
-    worst = max((1 / factor(gear, mesh, degree, "h1_error", "smart-laplace", "getme"), mesh, degree)
-                for mesh in ("tri", "quad") for degree in "12")
-    where = {"tri": "triangles", "quad": "quadrilaterals"}[worst[1]]
-    counts = [int(gear["tri", "1", method]["cg_iterations"]) for method in ("smart-laplace", "getme")]
-    return (f"On the published gears smart Laplace keeps bad clusters of cells: up to {worst[0]:.1f} times GETMe's error ({where}, degree {worst[2]}), "
-            f"and {counts[0]:,} CG iterations in place of {counts[1]:,} (triangles, degree 1; `results/reference/gear`).")
-
-
-def minimum(reference):
-    """The lowest quality and the error: smart Laplace's triangles of the gear."""
-    gear = of_study(reference, "gear")
-    smart, getme = gear["tri", "1", "smart-laplace"], gear["tri", "1", "getme"]
-    higher = sorted(PERCENT * (factor(gear, "tri", degree, "h1_error", "getme", "smart-laplace") - 1) for degree in "12")
-    condition = sorted(factor(gear, "tri", degree, "condition_number", "getme", "smart-laplace") for degree in "12")
-    return (f"Smart Laplace's triangles of the gear keep q_min {float(smart['q_min']):.0e}. Their true H1 error is {higher[0]:.0f} to "
-            f"{higher[1]:.0f} % above that of GETMe's (q_min {float(getme['q_min']):.2f}), and their condition number is "
-            f"{condition[0]:,.0f} to {condition[1]:,.0f} times as high (`results/reference/gear`).")
-
-
 def cost(found):
     """Error and total time of smoothing, of the next degree and of split cells."""
     rows = found.rows("table_payoff")
@@ -386,8 +244,8 @@ def first_solutions(found):
             "generated, degree 1, it takes longer on the initial mesh. The medians are "
             f"{', '.join(f'{ratio:.2f} times ({elements})' for ratio, elements in zip(first, found.elements))}. At degree 2, which is solved later, "
             f"they are {spread(second)}. At degree 1 it takes more than {LONG} times as long on {spread(long, '.0f')} % of the problems of a type and a "
-            "level. So a time below 1 on a good mesh does not show that smoothing gains time. The times of split cells and of the next degree are too small for the "
-            "same reason.")
+            "level. So a time below 1 on a good mesh does not show that smoothing gains time. The times of split cells and of the next degree are too "
+            "small for the same reason.")
 
 
 def prediction(found):
@@ -401,51 +259,6 @@ def prediction(found):
                       f"{strongest['Quality']}: {with_interval(strongest, 'Correlation')}"))
     return ("Rank correlation of a mesh's quality with its H1 error, degree 1, mean over domains (`table_prediction`; -1: higher quality always "
             "goes with a lower error):\n\n" + table(("elements", "q_mean", "q_min", "strongest of all metrics, chosen after looking"), lines))
-
-
-def converged(reference):
-    """What CG's stopping changes in the errors of the published gears: the page on finite elements."""
-    stopped, exact = of_study(reference, "gear"), of_study(reference, "reasons/gear-converged")
-
-    def largest(method, column):
-        return max(abs(float(stopped[mesh, degree, method][column]) / float(exact[mesh, degree, method][column]) - 1)
-                   for mesh in ("tri", "quad") for degree in "12")
-    found = {(method, column): f"{PERCENT * largest(method, column):.2g} %" for method in ("initial", "getme")
-             for column in ("e_mean", "e_l2", "e_h1", "l2_error", "h1_error")}
-
-    def told(method):
-        return ", ".join(f"`{column}` {found[method, column]}" for column in ("e_mean", "e_l2", "e_h1", "l2_error", "h1_error"))
-    return ("How much of an error is left by CG? On the published gears CG was run to a residual of 1e-13, too (`results/reference/reasons/"
-            f"gear-converged`). The errors differ from those at 1e-8 by at most: {told('initial')} on the initial meshes; {told('getme')} on "
-            "GETMe's meshes.")
-
-
-def space_part(reference):
-    """The true error over the least one on the published gears: the page on finite elements."""
-    gear = of_study(reference, "gear")
-    titles = {"initial": "initial", "getme": "GETMe", "global-optimization": "Global Optimization"}
-
-    def over(mesh, degree, method):
-        row = gear[mesh, degree, method]
-        return float(row["h1_error"]) / float(row["h1_best"])
-    rows = [(name, title, *(f"{float(gear[mesh, '1', method][column]):.1f}" for column in ("e_h1", "h1_error", "h1_best")),
-             f"{over(mesh, '1', method):.3f}")
-            for mesh, name in (("tri", "triangles"), ("quad", "quadrilaterals")) for method, title in titles.items()]
-    second = [over(mesh, "2", method) for mesh in ("tri", "quad") for method in titles]
-    return ("Published gears, degree 1 (`results/reference/gear`):\n\n"
-            + table(("elements", "mesh", "`e_h1`", "`h1_error`", "`h1_best`", "`h1_error` / `h1_best`"), rows, "llrrrr")
-            + f"\n\nAt degree 2 the quotients are {spread(second, '.4f')}.")
-
-
-def points_of_hexahedra(reference):
-    """What a rule for each cell costs on distorted hexahedra: the page on finite elements."""
-    volume = of_study(reference, "volume")
-    meshes = list(dict.fromkeys(mesh for mesh, _, _ in volume if mesh.startswith("hex")))
-    longer = [factor(volume, mesh, degree, "assembly_seconds") for mesh in meshes for degree in "12"]
-    runs = {mesh["name"]: mesh for mesh in entries(read_provenance(reference / "volume" / "provenance.json"), "meshes")}
-    most = max(max(runs[mesh]["most_hexahedron_points"].values()) for mesh in meshes)
-    return (f"This takes time on distorted meshes. In the study `volume` with `auto`, cells of the initial hexahedra get up to {most} points per direction. "
-            f"Assembly then takes {spread(longer, '.0f')} times as long as on GETMe's mesh ({len(meshes)} seeds, degrees 1 and 2).")
 
 
 ORDERS = {"orders": "square and L-shape, triangles and quadrilaterals, five sizes, distorted to 0.45",
@@ -468,32 +281,6 @@ def orders_of(reference, study):
                                      for is_initial in (True, False)))
              for (norm, degree), order in expected.items()]
     return table(("error", "degree", "expected", "before smoothing", "after smoothing"), lines, "lrrrr")
-
-
-def of_families(row):
-    """The mean ratio, with its interval if there are three families or more."""
-    return with_interval(row, "Error / initial") if int(row["Families"]) >= FEWEST_FAMILIES else f"{float(row['Error / initial']):.2f}"
-
-
-def practice(reference):
-    """What smoothing does to published meshes."""
-    lines = []
-    for study, name in SETS.items():
-        if not (reference / study).is_dir():
-            continue
-        gains = {(row["Elements"], row["d"]): row for row in tables_of(reference, study, "table_smoothing")
-                 if row["Method"] == REFERENCE_METHOD and row["Level"] == "as generated"}
-        initial, _ = pairs_of(reference, study)
-        for elements in dict.fromkeys(key[0] for key in gains):
-            both = [gains.get((elements, degree)) for degree in "12"]
-            chosen = initial.select(elements=elements)
-            lines.append((name, elements, both[0]["Families"], *(spread(chosen.number(column)) for column in ("q_mean", "q_min")), *(of_families(row) if row else "" for row in both),
-                          *(f"{row['Worse (%)']} %" if row else "" for row in both)))
-    return ("H1 error after over before smoothing by GETMe simultaneous, on published meshes as they are, and on tangled ones after "
-            "untangling (`table_smoothing` of each set; [the sets](../how-to/many-meshes.md#published-meshes)). A family is a model or a domain; "
-            "intervals are given for three families or more. Worse: share of problems whose error rises by more than 1 %.\n\n"
-            + table(("set", "elements", "families", "q_mean before", "q_min before", "degree 1", "degree 2", "worse, degree 1", "degree 2"),
-                    lines, "llrrrrrrr") + "\n\n" + bad_published(reference))
 
 
 def moving(reference):
