@@ -3,27 +3,25 @@
 field-large and of collections of public meshes, and from the rows of gear, volume and energy-field."""
 
 from collections import Counter
-from functools import lru_cache
 
 import numpy as np
 
 from ..collections.comparison import share
 from ..collections.problems import AS_GENERATED, WORSE, problems_of
-from ..results.collection import ends, read_collection_results
+from ..results.collection import read_collection_results
 from ..results.rows import read_rows
 from ..statistics.units import geometric, mean_of_units
 from .blocks import table
+from .gears import bad_meshes, clusters, minimum
+from .published import practice, published_hexahedra
+from .reference import METHOD, PERCENT, REFERENCE_METHOD, SOLVER, mean_ratio, pairs_of, spread, tables_of, with_interval
 
-METHOD, REFERENCE_METHOD = "getme-simultaneous", "GETMe simultaneous"  # name and title of the first method of the studies
 FIELDS = ("field", "field-volume")
 KINDS = {"field": "planar", "field-volume": "volume"}
 ELEMENTS = ("triangles", "quadrilaterals", "tetrahedra", "hexahedra")
-SETS = {"collection-mesquite": "Mesquite", "collection-sfepy": "SfePy", "collection-hexalab": "HexaLab"}
 LEVELS = {"as generated": "as generated", "0.6": "distorted to 0.6", "0.45": "distorted to 0.45"}
-SOLVER = "jacobi_cg_iterations"
-FEWEST_FAMILIES = 3  # of an interval that says something
 SURE = 0.05  # adjusted p-values below it tell methods apart
-PERCENT = 100
+LONG = 1.5  # times of the first assembly over a later one that are too long
 FAR_BELOW = 0.25  # times the median of q_min of meshes as generated
 
 
@@ -77,6 +75,10 @@ class Fields:
         of_members = [rows.select(elements=elements, distortion="").number(column) for rows in self.members.values()]
         return [quality for qualities in of_members for quality in qualities if np.isfinite(quality)]
 
+    def low_limit(self, elements):
+        """The limit of a q_min far below those of meshes as generated."""
+        return FAR_BELOW * np.median(self.qualities(elements, "q_min") or [0.0])
+
     def iterations(self, elements, level, degree):
         """Solver iterations after over before smoothing, as a geometric mean over domains."""
         logs, domains = [], []
@@ -87,35 +89,6 @@ class Fields:
             logs += list(np.log(ratios[np.isfinite(ratios)]))
             domains += list(initial.text("family")[chosen][np.isfinite(ratios)])
         return geometric(mean_of_units(logs, domains))[0]
-
-
-@lru_cache(maxsize=None)
-def tables_of(reference, study, name):
-    """The rows of a table of a collection."""
-    return read_rows(reference / study / "tables" / f"{name}.csv").records()
-
-
-def pairs_of(reference, study):
-    """(initial meshes, results of the reference method) of a collection, aligned by member and degree."""
-    rows = read_rows(reference / study / "summary.csv")
-    both = ends(rows.where(rows.text("degree") != "")).select(method=METHOD)
-    return both.where(slice(0, None, 2)), both.where(slice(1, None, 2))
-
-
-def interval(text):
-    """"0.95 to 1.02" of a table as "0.95 to 1.02" with two digits."""
-    return " to ".join(f"{float(end):.2f}" for end in text.split(" to "))
-
-
-def with_interval(row, column):
-    """"0.98 (0.95 to 1.02)"."""
-    return f"{float(row[column]):.2f} ({interval(row[column + ' interval'])})" if row[column + " interval"] else f"{float(row[column]):.2f}"
-
-
-def spread(numbers, form=".2f"):
-    """"0.95 to 1.02"; one number if both are equal."""
-    ends_of_range = dict.fromkeys(f"{number:{form}}" for number in (min(numbers), max(numbers)))
-    return " to ".join(ends_of_range)
 
 
 def in_short(found):
@@ -156,12 +129,11 @@ def what_was_run(found):
     counts = [Counter(rows.text("status")) for rows in found.members.values()]
     complete, total = sum(count["complete"] for count in counts), sum(sum(count.values()) for count in counts)
     folders = " and ".join(f"`results/reference/{study}`" for study in found.studies)
-    qualities = "; ".join(f"{elements} {spread(found.qualities(elements))}" for elements in found.elements)
-    smallest = "; ".join(f"{elements} {spread(found.qualities(elements, 'q_min'))}, median {np.median(found.qualities(elements, 'q_min')):.2f}"
-                         for elements in found.elements)
-    return (f"{found.n_meshes():,} meshes of {found.domains()} have {least:,} to {most:,} nodes. Each mesh has five problems; {complete:,} of "
-            f"{total:,} are complete ({folders}). The mean quality `q_mean` of meshes as generated (mean ratio, at most 1): {qualities}. "
-            f"Their smallest quality `q_min`: {smallest}.")
+    rows = [(elements, spread(found.qualities(elements)), spread(found.qualities(elements, "q_min")),
+             f"{np.median(found.qualities(elements, 'q_min')):.2f}", f"{found.low_limit(elements):.2f}") for elements in found.elements]
+    return (f"{found.n_meshes():,} meshes of {found.domains()} have {least:,} to {most:,} nodes. Each mesh has five problems, {total:,} in all; "
+            f"{complete:,} have complete results ({folders}).\n\nQualities of the meshes as generated (mean ratio, at most 1):\n\n"
+            + table(("elements", "`q_mean`", "`q_min`", "median of `q_min`", "limit: a quarter of the median"), rows, "lrrrr"))
 
 
 def levels(found):
@@ -194,8 +166,8 @@ def low_minimum(found):
         ratios = {"h1_error": after.number("h1_error") / initial.number("h1_error"), SOLVER: after.number(SOLVER) / initial.number(SOLVER)}
         meshes = np.array([member.rsplit(".", 1)[0] for member in initial.text("member")])
         for elements in found.elements:
-            limit = FAR_BELOW * np.median(found.qualities(elements, "q_min") or [0.0])
-            low = (initial.text("elements") == elements) & (initial.text("distortion") == "") & (initial.number("q_min") < limit)
+            low = (initial.text("elements") == elements) & (initial.text("distortion") == "")
+            low &= initial.number("q_min") < found.low_limit(elements)
             for mesh in dict.fromkeys(meshes[low]):
                 here = low & (meshes == mesh)
                 cells = [mean_ratio(ratios[column][here & (initial.text("degree") == degree)]) for degree in "12" for column in ratios]
@@ -204,38 +176,7 @@ def low_minimum(found):
     return ("Meshes as generated whose q_min is below a quarter of the median of their elements (a limit chosen after looking). Each number is after over "
             "before smoothing, a geometric mean over five problems:\n\n"
             + table(("domain", "elements", "q_min", "q_mean", "H1 error, degree 1", "CG iterations with Jacobi", "degree 2", "iterations"),
-                    rows, "llrrrrrr"))
-
-
-def mean_ratio(ratios):
-    """The geometric mean of the known ratios."""
-    return f"{np.exp(np.nanmean(np.log(ratios))):.2f}"
-
-
-def of_study(reference, study):
-    """(mesh, degree, method) -> record of a summary."""
-    return {(row["mesh"], row["degree"], row["method"]): row
-            for row in read_rows(reference / study / "summary.csv").records()}
-
-
-def factor(rows, mesh, degree, column, over="getme", under="initial"):
-    """The number of one method's mesh over that of another."""
-    return float(rows[mesh, degree, under][column]) / float(rows[mesh, degree, over][column])
-
-
-def bad_meshes(reference):
-    """Factors on the published gears and on the flange: true errors, interpolated ones, iterations."""
-    gear, volume = of_study(reference, "gear"), of_study(reference, "volume")
-    rows = []
-    for name, study, mesh in (("gear, triangles", gear, "tri"), ("gear, quadrilaterals", gear, "quad"),
-                              ("flange, tetrahedra", volume, "tet"), ("flange, hexahedra", volume, "hex")):
-        quality = float(study[mesh, "1", "initial"]["q_mean"])
-        for degree in "12":
-            rows.append((name, f"{quality:.2f}", degree, *(f"{factor(study, mesh, degree, column):.1f}" for column in (
-                "h1_error", "e_h1", "cg_iterations", "jacobi_cg_iterations"))))
-    return ("Initial over GETMe (`results/reference/gear`, published meshes; `results/reference/volume`, stand-in meshes):\n\n"
-            + table(("mesh", "q_mean before", "degree", "true H1 error", "e_H1 of the thesis", "CG iterations", "with Jacobi"),
-                    rows, "lrrrrrr"))
+                    rows, "llrrrrrr") + "\n\n" + published_hexahedra(found.reference, found.low_limit("hexahedra")))
 
 
 def methods(found):
@@ -250,8 +191,8 @@ def methods(found):
     rows = [(method, LEVELS[level], *(cell(elements, level, method) for elements in found.elements))
             for method in found.methods[1:] for level in ("as generated", "0.45")]
     return ("H1 error over that of GETMe simultaneous, degree 1, at the methods' ends (`table_smoothing`). A method fails if it has no "
-            "result or invalid cells; the initial mesh then counts. A star: different by a test over domains (p below 0.05 after "
-            "correction), however small the difference is.\n\n"
+            "result or invalid cells; the initial mesh then counts. A star: a test over domains finds a difference (p below 0.05 after "
+            "correction). It can be too small for two digits, as in 1.00*.\n\n"
             + table(("method", "initial mesh", *found.elements), rows, "ll" + "r" * len(found.elements)))
 
 
@@ -269,29 +210,8 @@ def budgets(found):
             cells.append(f"{best['Method']} {float(best[name]):.2f} ({float(reference[name]):.2f})")
         lines.append((elements, *cells))
     return ("Method with the lowest mean ratio within a budget of smoothing time, in solutions on the initial mesh; in parentheses the ratio "
-            "of GETMe simultaneous (degree 1, distorted to 0.6, `table_budgets`):\n\n" + table(("elements", *names), lines))
-
-
-def clusters(reference):
-    """What smart Laplace and weighted Laplace do on the published gears."""
-    gear = of_study(reference, "gear")
-    worst = max((1 / factor(gear, mesh, degree, "h1_error", "smart-laplace", "getme"), mesh, degree)
-                for mesh in ("tri", "quad") for degree in "12")
-    where = {"tri": "triangles", "quad": "quadrilaterals"}[worst[1]]
-    counts = [int(gear["tri", "1", method]["cg_iterations"]) for method in ("smart-laplace", "getme")]
-    return (f"On the published gears smart Laplace keeps bad clusters of cells: up to {worst[0]:.1f} times GETMe's error ({where}, degree {worst[2]}), "
-            f"and {counts[0]:,} CG iterations in place of {counts[1]:,} (triangles, degree 1; `results/reference/gear`).")
-
-
-def minimum(reference):
-    """The lowest quality and the error: smart Laplace's triangles of the gear."""
-    gear = of_study(reference, "gear")
-    smart, getme = gear["tri", "1", "smart-laplace"], gear["tri", "1", "getme"]
-    higher = sorted(PERCENT * (factor(gear, "tri", degree, "h1_error", "getme", "smart-laplace") - 1) for degree in "12")
-    condition = sorted(factor(gear, "tri", degree, "condition_number", "getme", "smart-laplace") for degree in "12")
-    return (f"Smart Laplace's triangles of the gear keep q_min {float(smart['q_min']):.0e}. Their true H1 error is {higher[0]:.0f} to "
-            f"{higher[1]:.0f} % above that of GETMe's (q_min {float(getme['q_min']):.2f}), and their condition number is "
-            f"{condition[0]:,.0f} to {condition[1]:,.0f} times as high (`results/reference/gear`).")
+            "of GETMe simultaneous (degree 1, distorted to 0.6, `table_budgets`). Each method is chosen after looking; of methods with the same three "
+            "digits the first of the table above is named:\n\n" + table(("elements", *names), lines))
 
 
 def cost(found):
@@ -299,16 +219,33 @@ def cost(found):
     rows = found.rows("table_payoff")
     ways = {REFERENCE_METHOD: "smoothed", "unsmoothed, cells split": "every cell split", "unsmoothed, degree d + 1": "next degree"}
     by_key = {(row["Elements"], row["d"], row["Level"], row["Instead"]): row for row in rows}
-    lines = []
-    for elements in found.elements:
-        for level, name in LEVELS.items():
-            cells = [(by_key[elements, "1", level, way]["Error / initial"], by_key[elements, "1", level, way]["Time / initial"])
-                     for way in ways]
-            lines.append((elements, name, *(f"{float(error):.2f} in {float(time):.1f}" for error, time in cells)))
+    lines = [(elements, name, *(f"{float(by_key[elements, '1', level, way][column]):{form}}" for way in ways
+                                for column, form in (("Error / initial", ".2f"), ("Time / initial", ".1f"))))
+             for elements in found.elements for level, name in LEVELS.items()]
+    heading = [text for way in ways.values() for text in (f"{way}: error", "time")]
     second = [float(row["Time / initial"]) for row in rows if (row["d"], row["Instead"]) == ("2", REFERENCE_METHOD)]
-    return ("H1 error and total time, over those of the unsmoothed mesh with linear elements (`table_payoff`):\n\n"
-            + table(("elements", "initial mesh", *ways.values()), lines, "llrrr")
-            + f"\n\nWith quadratic elements, smoothing and solving take {spread(second)} times as long as solving on the unsmoothed mesh.")
+    return ("H1 error, and total time to get it, each over that of one solution on the unsmoothed mesh with linear elements "
+            "(`table_payoff`):\n\n" + table(("elements", "initial mesh", *heading), lines, "ll" + "rr" * len(ways))
+            + f"\n\nWith quadratic elements, smoothing and solving take {spread(second)} times as long as solving on the unsmoothed mesh.\n\n"
+            + first_solutions(found))
+
+
+def first_solutions(found):
+    """How much too long the first solution of a mesh takes: assembly does the same work before and after smoothing."""
+    def longer(elements, level, degree):
+        """Assembly times of the initial mesh over those of the smoothed one."""
+        ratios = np.concatenate([(initial.number("assembly_seconds") / after.number("assembly_seconds"))[
+            (initial.text("elements") == elements) & (initial.text("degree") == degree)
+            & (initial.text("distortion") == ("" if level == AS_GENERATED else level))] for initial, after in found.pairs])
+        return ratios[np.isfinite(ratios)]
+    first, second = ([np.median(longer(elements, AS_GENERATED, degree)) for elements in found.elements] for degree in "12")
+    long = [PERCENT * np.mean(longer(elements, level, "1") > LONG) for elements in found.elements for level in LEVELS]
+    return ("The time of the unsmoothed mesh is too long, as it is solved first. Assembly does the same work before and after smoothing. On meshes as "
+            "generated, degree 1, it takes longer on the initial mesh. The medians are "
+            f"{', '.join(f'{ratio:.2f} times ({elements})' for ratio, elements in zip(first, found.elements))}. At degree 2, which is solved later, "
+            f"they are {spread(second)}. At degree 1 it takes more than {LONG} times as long on {spread(long, '.0f')} % of the problems of a type and a "
+            "level. So a time below 1 on a good mesh does not show that smoothing gains time. The times of split cells and of the next degree are too "
+            "small for the same reason.")
 
 
 def prediction(found):
@@ -322,23 +259,6 @@ def prediction(found):
                       f"{strongest['Quality']}: {with_interval(strongest, 'Correlation')}"))
     return ("Rank correlation of a mesh's quality with its H1 error, degree 1, mean over domains (`table_prediction`; -1: higher quality always "
             "goes with a lower error):\n\n" + table(("elements", "q_mean", "q_min", "strongest of all metrics, chosen after looking"), lines))
-
-
-def converged(reference):
-    """What CG's stopping changes in the errors of the published gears: the page on finite elements."""
-    stopped, exact = of_study(reference, "gear"), of_study(reference, "reasons/gear-converged")
-
-    def largest(method, column):
-        return max(abs(float(stopped[mesh, degree, method][column]) / float(exact[mesh, degree, method][column]) - 1)
-                   for mesh in ("tri", "quad") for degree in "12")
-    found = {(method, column): f"{PERCENT * largest(method, column):.2g} %" for method in ("initial", "getme")
-             for column in ("e_mean", "e_l2", "e_h1", "l2_error", "h1_error")}
-
-    def told(method):
-        return ", ".join(f"`{column}` {found[method, column]}" for column in ("e_mean", "e_l2", "e_h1", "l2_error", "h1_error"))
-    return ("How much of an error is left by CG? On the published gears CG was run to a residual of 1e-13, too (`results/reference/reasons/"
-            f"gear-converged`). The errors differ from those at 1e-8 by at most: {told('initial')} on the initial meshes; {told('getme')} on "
-            "GETMe's meshes.")
 
 
 ORDERS = {"orders": "square and L-shape, triangles and quadrilaterals, five sizes, distorted to 0.45",
@@ -361,29 +281,6 @@ def orders_of(reference, study):
                                      for is_initial in (True, False)))
              for (norm, degree), order in expected.items()]
     return table(("error", "degree", "expected", "before smoothing", "after smoothing"), lines, "lrrrr")
-
-
-def of_families(row):
-    """The mean ratio, with its interval if there are three families or more."""
-    return with_interval(row, "Error / initial") if int(row["Families"]) >= FEWEST_FAMILIES else f"{float(row['Error / initial']):.2f}"
-
-
-def practice(reference):
-    """What smoothing does to published meshes."""
-    lines = []
-    for study, name in SETS.items():
-        if not (reference / study).is_dir():
-            continue
-        gains = {(row["Elements"], row["d"]): row for row in tables_of(reference, study, "table_smoothing")
-                 if row["Method"] == REFERENCE_METHOD and row["Level"] == "as generated"}
-        for elements in dict.fromkeys(key[0] for key in gains):
-            both = [gains.get((elements, degree)) for degree in "12"]
-            lines.append((name, elements, both[0]["Families"], *(of_families(row) if row else "" for row in both),
-                          *(f"{row['Worse (%)']} %" if row else "" for row in both)))
-    return ("H1 error after over before smoothing by GETMe simultaneous, on published meshes as they are, and on tangled ones after "
-            "untangling (`table_smoothing` of each set; [the sets](../how-to/many-meshes.md#published-meshes)). A family is a model or a domain; "
-            "intervals are given for three families or more. Worse: share of problems whose error rises by more than 1 %.\n\n"
-            + table(("set", "elements", "families", "degree 1", "degree 2", "worse, degree 1", "degree 2"), lines, "llrrrrr"))
 
 
 def moving(reference):

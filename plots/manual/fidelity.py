@@ -12,9 +12,10 @@ from .blocks import table
 
 CAUSES = {"optimizer": "another or faster global optimization than Mesquite's, or its path",
           "speed": "relative speed of the project's own methods",
-          "criterion": "the criterion: its later version holds, the limit is missed by rounding, or the result is stronger than the thesis says",
+          "criterion": "the criterion: its later version holds, the limit is missed by rounding, it wants an order of two equal results, or the "
+                       "result is stronger than the thesis says",
           "chance": "chance of the seed, or one number that several claims share",
-          "stand-in": "the stand-in mesh",
+          "stand-in": "the stand-in mesh or its distortion: suspected; for C3 shown by a test",
           "reading": "a reading of the thesis, or a choice of this project"}
 BUILT = ("nonuniform-grid", "subdivision")  # meshes that the thesis describes completely
 

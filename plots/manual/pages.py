@@ -3,7 +3,7 @@
 
 from ..claims.reasons import reference
 from ..results.data_folder import data_folder
-from . import answer, elasticity, fidelity, moving_nodes, paper, sizes
+from . import answer, elasticity, fidelity, finite_elements, moving_nodes, paper, sizes
 
 
 def blocks():
@@ -15,7 +15,7 @@ def blocks():
         data_folder() / "README.md": {"findings": answer.in_short(found)},
         docs / "explanation" / "answer.md": answer.blocks(found, reference()),
         docs / "explanation" / "elasticity-study.md": elasticity.blocks(reference()),
-        docs / "explanation" / "finite-elements.md": {"converged": answer.converged(reference())},
+        docs / "explanation" / "finite-elements.md": finite_elements.blocks(reference()),
         docs / "explanation" / "fidelity.md": of_thesis,
         docs / "explanation" / "reducing-the-error-tables.md": moving_nodes.blocks(reference()),
         data_folder() / "paper" / "paper.md": {"agreement": of_thesis["agreement"], "gear": paper.gear(reference()),

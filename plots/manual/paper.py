@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of paper/paper.md."""
 
-from .answer import factor, of_study
+from .reference import factor, of_study
 
 MESHES = (("tri", "triangles"), ("quad", "quadrilaterals"))
 
