@@ -471,13 +471,14 @@ TEST_F(StudyFile, MethodsNameTheSolutionsTheySmoothFor) {
   EXPECT_TRUE(study.methods[0].smooth_for.empty());
   EXPECT_EQ(study.methods[1].smooth_for, (std::vector<std::string>{"ramp", "sine"}));
 
-  expect_error(two + both + "set smooth for = rmap\nend\n",
-               "method both has 'smooth for' = rmap, which is not in the list 'solutions'");
+  expect_error(
+      two + both + "set smooth for = rmap\nend\n",
+      "method both has 'smooth for' = rmap, which is not in the lists 'solutions' and 'solvers'");
   expect_error(two + both + "set smooth for = sine, sine\nend\n", "'sine' twice");
   expect_error(two + both + "end\nsubsection method getme\nset smooth for = sine\nend\n",
                "method getme has 'smooth for', but does not move nodes by a solution");
   expect_error(one_mesh + "set methods = both\n" + both + "set smooth for = sine\nend\n",
-               "name the solutions in 'solutions'");
+               "which is not in the list 'solvers', and the study has no list 'solutions'");
   expect_error(two + both + "end\nsubsection solution\nset u = x\nend\n",
                "both a list 'solutions' and, in the subsection 'solution', 'u'");
   expect_error(one_mesh + "set solutions = sine, nowhere\n", "nowhere");
