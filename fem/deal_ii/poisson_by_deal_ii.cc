@@ -36,9 +36,10 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
     auto all = SymmetricSystem::descriptions();
     all.push_back({"l2_error", "", "Error in the L2 norm, by quadrature."});
     all.push_back({"h1_error", "", "Error in the H1 norm, by quadrature."});
-    all.push_back({"kelly_estimate", "",
-                   "Square root of the sum of the squares of deal.II's Kelly error indicators, "
-                   "of -laplace(u) = f (meshes with one type of cells)."});
+    all.push_back(
+        {"kelly_estimate", "",
+         "Square root of the sum of the squares of deal.II's Kelly error indicators, "
+         "of -laplace(u) = f (meshes of one type of cells, not of pyramids and prisms)."});
     return all;
   }
 
@@ -67,7 +68,7 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
     };
     result.numbers.push_back({"l2_error", error(NormType::L2_norm)});
     result.numbers.push_back({"h1_error", error(NormType::H1_norm)});
-    if (space_->elements.size() == 1 && !solution_.diffusivity)
+    if (has_kelly(*space_) && !solution_.diffusivity)
       result.numbers.push_back(
           {"kelly_estimate", kelly_estimate(*space_, system_->solution, this->ranks())});
     return result;

@@ -108,6 +108,17 @@ TEST(Indicators, OfKellyAreHighWhereTheFastPathsAre) {
   EXPECT_GT(left, 5.0 * right);
 }
 
+/// deal.II would read quadrature points that facets of two shapes do not have.
+TEST(Indicators, OfKellyAreRefusedOnPyramidsAndPrisms) {
+  for (const Cells cells : {Cells::pyramids, Cells::prisms}) {
+    const auto mesh = unit_cube(2, cells, 0.0);
+    const auto solver = maker<3>(mesh, "deal.II", {}, {}, derived_solution<3>("x*y", {}, {}))(1);
+    EXPECT_THAT([&] { (void)solver->indicators(mesh); },
+                ThrowsMessage<SolverFailure>(HasSubstr("not of pyramids or prisms")));
+    for (const auto& number : solver->solve(mesh).numbers) EXPECT_NE(number.name, "kelly_estimate");
+  }
+}
+
 TEST(Indicators, OfAnySolverMoveNodes) {
   const Mesh<2> mesh = unit_square(10, Cells::quadrilaterals, 0.3);
   const auto solution = derived_solution<2>("exp(-10*x)*cos(y) + x*y", {}, {});
