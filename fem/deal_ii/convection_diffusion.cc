@@ -132,21 +132,13 @@ class ConvectionDiffusion final : public TriangulationSolver<dim> {
     matrix_ = 0.0;
     load_ = 0.0;
     double largest = 0.0;
-    dealii::FullMatrix<double> cell_matrix;
-    dealii::Vector<double> cell_load;
-    std::vector<dealii::types::global_dof_index> indices;
-    space_->for_each_cell(
-        [&](const dealii::FEValues<dim>& values, const auto& cell) {
-          const unsigned int n = values.dofs_per_cell;
-          cell_matrix.reinit(n, n);
-          cell_load.reinit(n);
-          for (const unsigned int q : values.quadrature_point_indices())
-            largest = std::max(largest, add_point(values, cell, q, cell_matrix, cell_load));
-          indices.resize(n);
-          cell->get_dof_indices(indices);
-          constraints.distribute_local_to_global(cell_matrix, cell_load, indices, matrix_, load_);
-        },
-        dealii::update_hessians);
+    const auto integrate = [&](const dealii::FEValues<dim>& values, const auto& cell,
+                               dealii::FullMatrix<double>& cell_matrix,
+                               dealii::Vector<double>& cell_load) {
+      for (const unsigned int q : values.quadrature_point_indices())
+        largest = std::max(largest, add_point(values, cell, q, cell_matrix, cell_load));
+    };
+    space_->add_integrals(integrate, constraints, matrix_, load_, dealii::update_hessians);
     return largest;
   }
 

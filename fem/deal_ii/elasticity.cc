@@ -353,11 +353,9 @@ class Elasticity final : public TriangulationSolver<dim> {
                                          [&](const OfId& given) { return given.id == id; });
   }
 
-  /// deal.II 9.4 has no quadrature on their facets, which have two shapes.
   void require_facets_for_tractions(const dealii::Triangulation<dim>& triangulation) const {
     for (const auto& type : triangulation.get_reference_cells())
-      if ((type == dealii::ReferenceCells::Pyramid || type == dealii::ReferenceCells::Wedge) &&
-          !(natural_ids_.empty() && traction_ids_.empty()))
+      if (has_facets_of_two_shapes(type) && !(natural_ids_.empty() && traction_ids_.empty()))
         throw InputError("elasticity has no tractions on pyramids and prisms; leave them out");
   }
 

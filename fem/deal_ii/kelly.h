@@ -11,12 +11,11 @@
 
 namespace smoothfem {
 
-/// True if deal.II 9.4 can integrate over the facets: the mesh has one type of cells, not pyramids
-/// or prisms, whose facets have two shapes.
+/// True if the mesh has one type of cells, and deal.II can integrate over their facets.
 template <int dim>
 bool has_kelly(const LagrangeSpace<dim>& space) {
   const auto& types = space.dofs.get_triangulation().get_reference_cells();
-  return types.size() == 1 && (types[0].is_simplex() || types[0].is_hyper_cube());
+  return types.size() == 1 && !has_facets_of_two_shapes(types[0]);
 }
 
 /// Returns deal.II's Kelly indicator of each cell, of the jumps of grad u_h across facets: its

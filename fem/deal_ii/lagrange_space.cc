@@ -34,7 +34,7 @@ void check_degree(const std::vector<ReferenceCell>& types, unsigned int degree) 
   unsigned int most = types.size() == 1 ? 4 : 2;
   for (const ReferenceCell& type : types) {
     if (type.is_simplex()) most = std::min(most, 2U);
-    if (type == Pyramid || type == Wedge) most = 1;
+    if (has_facets_of_two_shapes(type)) most = 1;
   }
   if (degree > most)
     throw InputError("deal.II has no finite elements of degree " + std::to_string(degree) +

@@ -9,6 +9,8 @@
 #include <deal.II/hp/mapping_collection.h>
 #include <deal.II/hp/q_collection.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <map>
@@ -17,6 +19,11 @@
 #include "fem/constraints/node_ties.h"
 
 namespace smoothfem {
+
+/// True for cells whose facets have two shapes: deal.II 9.4 has no quadrature on these.
+inline bool has_facets_of_two_shapes(const dealii::ReferenceCell& type) {
+  return type == dealii::ReferenceCells::Pyramid || type == dealii::ReferenceCells::Wedge;
+}
 
 /// Lagrange elements on a triangulation, which may have several types of cells: for each type an
 /// element, a straight-sided mapping and quadrature rules, in the order of the collections. On
@@ -55,8 +62,43 @@ struct LagrangeSpace {
     }
   }
 
-  /// Calls visit(values, hats, cell) as above, with the FEValues of the hat functions of the cell's
-  /// vertices, which map the cell, at the same points.
+  /// Calls visit(cell, cell_matrix, cell_load) for each cell, after integrate(values, cell,
+  /// cell_matrix, cell_load) has added the integrals over it to zeros.
+  template <class Integrate, class Visit>
+  void for_each_integrated_cell(const Integrate& integrate, const Visit& visit,
+                                dealii::UpdateFlags more = dealii::update_default) const {
+    dealii::FullMatrix<double> cell_matrix;
+    dealii::Vector<double> cell_load;
+    for_each_cell(
+        [&](const dealii::FEValues<dim>& values, const auto& cell) {
+          cell_matrix.reinit(values.dofs_per_cell, values.dofs_per_cell);
+          cell_load.reinit(values.dofs_per_cell);
+          integrate(values, cell, cell_matrix, cell_load);
+          visit(cell, cell_matrix, cell_load);
+        },
+        more);
+  }
+
+  /// Adds these integrals to a matrix and a right-hand side with constraints.
+  template <class Integrate, class Matrix, class Vector>
+  void add_integrals(const Integrate& integrate,
+                     const dealii::AffineConstraints<double>& constraints, Matrix& matrix,
+                     Vector& right_hand_side,
+                     dealii::UpdateFlags more = dealii::update_default) const {
+    std::vector<dealii::types::global_dof_index> indices;
+    for_each_integrated_cell(
+        integrate,
+        [&](const auto& cell, const auto& cell_matrix, const auto& cell_load) {
+          indices.resize(cell_load.size());
+          cell->get_dof_indices(indices);
+          constraints.distribute_local_to_global(cell_matrix, cell_load, indices, matrix,
+                                                 right_hand_side);
+        },
+        more);
+  }
+
+  /// Calls visit(values, hats, cell) as for_each_cell does, with the FEValues of the hat functions
+  /// of the cell's vertices, which map the cell, at the same points.
   template <class Visit>
   void for_each_cell_with_hats(const Visit& visit) const {
     dealii::hp::FEValues<dim> hats_of_types(mappings, hats, rules,

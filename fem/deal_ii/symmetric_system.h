@@ -2,7 +2,6 @@
 #pragma once
 
 #include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -34,26 +33,13 @@ class SymmetricSystem {
   /// Takes pattern and values of another program's matrix, and its right-hand side, on one rank.
   SymmetricSystem(const SparseMatrix& a, const Eigen::VectorXd& b);
 
-  /// Assembles matrix and right-hand side. integrate(values, cell, cell_matrix, cell_load) adds the
-  /// integrals over a cell to zeros (see LagrangeSpace::for_each_cell).
+  /// Assembles matrix and right-hand side. integrate: see LagrangeSpace::for_each_integrated_cell.
   template <int dim, class Integrate>
   void assemble(const LagrangeSpace<dim>& space,
                 const dealii::AffineConstraints<double>& constraints, const Integrate& integrate) {
     matrix = 0.0;
     right_hand_side = 0.0;
-    dealii::FullMatrix<double> cell_matrix;
-    dealii::Vector<double> cell_load;
-    std::vector<dealii::types::global_dof_index> indices;
-    space.for_each_cell([&](const dealii::FEValues<dim>& values, const auto& cell) {
-      const unsigned int n = values.dofs_per_cell;
-      cell_matrix.reinit(n, n);
-      cell_load.reinit(n);
-      integrate(values, cell, cell_matrix, cell_load);
-      indices.resize(n);
-      cell->get_dof_indices(indices);
-      constraints.distribute_local_to_global(cell_matrix, cell_load, indices, matrix,
-                                             right_hand_side);
-    });
+    space.add_integrals(integrate, constraints, matrix, right_hand_side);
     matrix.compress(dealii::VectorOperation::add);
     right_hand_side.compress(dealii::VectorOperation::add);
   }
@@ -75,21 +61,17 @@ class SymmetricSystem {
   /// Returns a(u_h, u_h) - 2 l(u_h) of the solution; `integrate` as for `assemble`.
   template <int dim, class Integrate>
   double energy(const LagrangeSpace<dim>& space, const Integrate& integrate) const {
-    dealii::FullMatrix<double> cell_matrix;
-    dealii::Vector<double> cell_load, u, force;
+    dealii::Vector<double> u, force;
     double energy = 0.0;
-    space.for_each_cell([&](const dealii::FEValues<dim>& values, const auto& cell) {
-      const unsigned int n = values.dofs_per_cell;
-      cell_matrix.reinit(n, n);
-      cell_load.reinit(n);
-      integrate(values, cell, cell_matrix, cell_load);
-      u.reinit(n);
-      cell->get_dof_values(solution, u);
-      force.reinit(n);
-      cell_matrix.vmult(force, u);
-      force.add(-2.0, cell_load);
-      energy += u * force;
-    });
+    space.for_each_integrated_cell(
+        integrate, [&](const auto& cell, const auto& cell_matrix, const auto& cell_load) {
+          u.reinit(cell_load.size());
+          cell->get_dof_values(solution, u);
+          force.reinit(cell_load.size());
+          cell_matrix.vmult(force, u);
+          force.add(-2.0, cell_load);
+          energy += u * force;
+        });
     return Ranks(matrix.get_mpi_communicator()).sum(energy);
   }
 

@@ -3,13 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <limits>
-#include <map>
 #include <optional>
 
 #include "fem/adaptivity/solver_problem.h"
 #include "fem/poisson_solver.h"
+#include "fem/tests/configured_solver.h"
 #include "fem/tests/gradient_of_differences.h"
 #include "fem/tests/unit_mesh.h"
 #include "smoothing/loop/smooth.h"
@@ -19,18 +18,13 @@ namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-using Settings = std::map<std::string, std::string>;
-using Keyed = std::vector<std::array<std::string, 3>>;
 
 template <int dim>
 MakeMeshSolver<dim> maker(const Mesh<dim>& mesh, const std::string& type, const Settings& settings,
                           const Keyed& keyed = {},
                           const std::optional<ManufacturedSolution<dim>>& solution = {}) {
   return [=](int degree) {
-    auto made = make_solver<dim>(type);
-    for (const auto& [name, value] : settings)
-      set_value(find_parameter(made->parameters(), name, type), value, type);
-    for (const auto& [parameter, name, value] : keyed) made->set_keyed(parameter, name, value);
+    auto made = configured_solver<dim>(type, settings, keyed);
     if (solution) made->use_solution(*solution);
     made->initialize(mesh, degree);
     return made;

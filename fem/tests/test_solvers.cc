@@ -3,12 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <map>
 
 #include "fem/poisson_solver.h"
-#include "fem/solvers/mesh_solver.h"
+#include "fem/tests/configured_solver.h"
 #include "fem/tests/unit_mesh.h"
 
 namespace smoothfem {
@@ -16,8 +15,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-using Settings = std::map<std::string, std::string>;
-using Keyed = std::vector<std::array<std::string, 3>>;  ///< parameter, name, value
 
 std::map<std::string, double> numbers_of(const SolverResult& result) {
   std::map<std::string, double> numbers;
@@ -27,20 +24,9 @@ std::map<std::string, double> numbers_of(const SolverResult& result) {
 }
 
 template <int dim>
-std::unique_ptr<MeshSolver<dim>> solver(const std::string& type, const Settings& settings,
-                                        const Keyed& keyed = {}) {
-  auto made = make_solver<dim>(type);
-  for (const auto& [name, value] : settings)
-    set_value(find_parameter(made->parameters(), name, type), value, type);
-  for (const auto& [parameter, name, value] : keyed) made->set_keyed(parameter, name, value);
-  made->check_parameters();
-  return made;
-}
-
-template <int dim>
 std::map<std::string, double> solve(const Mesh<dim>& mesh, int degree, const std::string& type,
                                     const Settings& settings, const Keyed& keyed = {}) {
-  const auto made = solver<dim>(type, settings, keyed);
+  const auto made = configured_solver<dim>(type, settings, keyed);
   made->initialize(mesh, degree);
   const SolverResult result = made->solve(mesh);
   EXPECT_EQ(result.status, "ok");
@@ -65,7 +51,8 @@ TEST_P(SolverOfCells, DealIIHasTheNumbersOfTheFastPath) {
     const SolutionRecord fast =
         PoissonSolver<dim>(&mesh, options).solve(mesh.coordinates(), solution);
 
-    const auto made = solver<dim>("deal.II", {{"cg_tolerance", "1e-13"}, {"points", "6"}});
+    const auto made =
+        configured_solver<dim>("deal.II", {{"cg_tolerance", "1e-13"}, {"points", "6"}});
     made->use_solution(solution);
     made->initialize(mesh, options.degree);
     const auto other = numbers_of(made->solve(mesh));
@@ -224,7 +211,8 @@ TEST_P(SolverOfCells, TiedNodesHaveTheNumbersOfTheFastPath) {
   GetParam().on_mesh(6, 3, 0.2, [&]<int dim>(const Mesh<dim>& mesh) {
     const auto ties = std::make_shared<const NodeTies>(periodic_in_x(mesh));
     const auto solution = derived_solution<dim>("sin(2*pi*x + 1)*cos(y)", "", {});
-    const auto made = solver<dim>("deal.II", {{"cg_tolerance", "1e-13"}, {"points", "5"}});
+    const auto made =
+        configured_solver<dim>("deal.II", {{"cg_tolerance", "1e-13"}, {"points", "5"}});
     made->use_solution(solution);
     made->use_ties(ties);
     if (GetParam().degree > 1) {
@@ -249,7 +237,7 @@ TEST_P(SolverOfCells, TiedNodesHaveTheNumbersOfTheFastPath) {
 /// Returns the numbers of convection-diffusion with a known u.
 std::map<std::string, double> convected(const Mesh<2>& mesh, int degree, const std::string& u,
                                         const Settings& settings) {
-  const auto made = solver<2>("convection-diffusion", settings);
+  const auto made = configured_solver<2>("convection-diffusion", settings);
   made->use_solution(derived_solution<2>(u, "", {}));
   made->initialize(mesh, degree);
   return numbers_of(made->solve(mesh));

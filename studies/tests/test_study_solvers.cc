@@ -176,16 +176,16 @@ TEST_F(StudySolvers, MakeMeshes) {
   };
   EXPECT_LT(error(summary, "mine"), 0.95 * error(summary, "laplace"));
 
-  const auto bytes_of_kept = [&] {
+  const auto kept_names = [&] {
     std::set<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator(file("out") / "kept"))
       if (entry.path().string().find("trajectory") != std::string::npos)
         names.insert(entry.path().filename());
     return names;
   };
-  const auto before = bytes_of_kept();
+  const auto before = kept_names();
   summary_of(with("energy-descent", "beam", "0.4"));
-  EXPECT_NE(bytes_of_kept(), before);  // smoothed anew for the changed solver
+  EXPECT_NE(kept_names(), before);  // smoothed anew for the changed solver
 
   summary_of(with("indicator-weighted", "load"));
   const auto refuse = [&](const std::string& text, const std::string& message) {

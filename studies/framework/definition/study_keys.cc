@@ -145,9 +145,8 @@ void declare_method_header(ParameterHandler& p, const std::string& title) {
   p.declare_entry(
       "smooth for", "", Patterns::Anything(),
       "For methods that move nodes by a solution: labels from 'solutions' that the mesh is made "
-      "for. Each counts by its relative error, and each needs a solve per mesh. Or the label of "
-      "one "
-      "of the 'solvers'. Empty: the first solution.");
+      "for. Each counts by its relative error, and each needs a solve per mesh. Or the "
+      "label of one of the 'solvers'. Empty: the first solution.");
 }
 
 std::string selection_of(std::span<const std::string_view> names) {
