@@ -17,7 +17,8 @@ enum class FixedReason : std::uint16_t {
   layer = 1 << 5,      ///< in a stack of thin cells that is kept
   periodic = 1 << 6,   ///< has a periodic partner
   corner = 1 << 7,     ///< corner of a surface
-  unused = 1 << 8      ///< no cell uses it
+  unused = 1 << 8,     ///< no cell uses it
+  midside = 1 << 9     ///< follows the corners of its cell (midside_nodes.h)
 };
 
 /// Any number of reasons, one bit each. 0: the node is free.
@@ -42,6 +43,7 @@ inline constexpr std::array fixed_reasons{NamedFixedReason{FixedReason::boundary
                                           NamedFixedReason{FixedReason::layer, "layer"},
                                           NamedFixedReason{FixedReason::periodic, "periodic"},
                                           NamedFixedReason{FixedReason::corner, "corner"},
-                                          NamedFixedReason{FixedReason::unused, "unused"}};
+                                          NamedFixedReason{FixedReason::unused, "unused"},
+                                          NamedFixedReason{FixedReason::midside, "midside"}};
 
 }  // namespace smoothfem

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "smoothing/mesh/compressed_rows.h"
+#include "smoothing/mesh/midside_nodes.h"
 #include "smoothing/mesh/number_type.h"
 #include "smoothing/mesh/point.h"
 
@@ -135,7 +136,8 @@ struct MeshLabels {
   std::map<std::pair<int, int>, std::string> names;  ///< (dimension, tag) -> physical name
   std::vector<std::size_t> node_ids;  ///< the file's number of each node; empty if it has none
   std::vector<std::size_t> cell_ids;  ///< the file's number of each cell; empty if it has none
-  std::shared_ptr<const FileContent> content{};  ///< null if the file says nothing else
+  std::shared_ptr<const FileContent> content{};   ///< null if the file says nothing else
+  std::shared_ptr<const MidsideNodes> midside{};  ///< null if all elements are linear
 
   /// Does not compare the content.
   bool operator==(const MeshLabels& other) const {

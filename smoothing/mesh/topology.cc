@@ -131,8 +131,15 @@ void Topology::build(std::size_t n_nodes, const Reasons& make_reasons) {
   if (reasons.size() != n_nodes)
     throw InputError("the mesh has " + std::to_string(n_nodes) + " nodes but " +
                      std::to_string(reasons.size()) + " fixed flags");
+  std::vector<bool> is_midside(n_nodes, false);
+  if (const MidsideNodes* nodes = midside()) {
+    check_midside_nodes(dim_, n_nodes, cells_, nodes->of_cells);
+    for (const NodeIndex node : nodes->of_cells.entries()) is_midside[node] = true;
+  }
   for (NodeIndex i = 0; i < n_nodes; ++i)
-    if (node_cells[i].empty()) reasons[i] |= bit(FixedReason::unused);
+    if (node_cells[i].empty())
+      reasons[i] = is_midside[i] ? bit(FixedReason::midside)
+                                 : FixedReasons(reasons[i] | bit(FixedReason::unused));
   build_fixed(std::move(reasons));
   build_blocks();
 }

@@ -26,7 +26,8 @@ struct CellBlock {
 };
 
 /// The connectivity of a planar or volume mesh: the nodes of each cell, and all tables that follow
-/// from them. Immutable. All adjacency rows are sorted ascending, which fixes the order of sums
+/// from them. Cells of second order have midside nodes in addition; all other tables are those of
+/// the corners. Immutable. All adjacency rows are sorted ascending, which fixes the order of sums
 /// over them.
 class Topology {
  public:
@@ -34,8 +35,8 @@ class Topology {
   /// order of volume_elements.h). cells: one row of node indices for each cell, all different and
   /// below n_nodes; no two cells have the same nodes. fixed: n_nodes flags of nodes that smoothing
   /// must not move (reason: marked); default: the boundary nodes. Nodes that no cell uses are
-  /// always fixed. Throws InputError that names the first cell that breaks these rules, or a facet
-  /// with more than two cells.
+  /// always fixed, and so are midside nodes. Throws InputError that names the first cell that
+  /// breaks these rules, or a facet with more than two cells.
   Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
            std::optional<std::vector<bool>> fixed = std::nullopt, MeshLabels labels = {});
   /// As above. reasons: for each node why it stays, 0 if it may move.
@@ -50,6 +51,13 @@ class Topology {
   std::span<const NodeIndex> cell_nodes(CellIndex cell) const { return cells_[cell]; }
   ElementType cell_type(CellIndex cell) const { return element_type(dim_, cells_[cell].size()); }
   const std::vector<CellBlock>& blocks() const { return blocks_; }
+
+  /// Returns the midside nodes of elements of second order; null if all elements are linear.
+  const MidsideNodes* midside() const { return labels_.midside.get(); }
+  /// Returns the midside nodes of a cell in the order of midside_nodes.h; empty if it is linear.
+  std::span<const NodeIndex> midside_nodes(CellIndex cell) const {
+    return midside() ? midside()->of_cells[cell] : std::span<const NodeIndex>();
+  }
 
   /// Returns the cells that use a node.
   std::span<const CellIndex> node_cells(NodeIndex node) const { return cells_by_node()[node]; }

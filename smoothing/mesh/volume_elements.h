@@ -178,6 +178,13 @@ constexpr void for_each_edge(int dim, std::size_t n_nodes, const Visit& visit) {
   }
 }
 
+/// Calls visit(face) for the faces of a volume cell that have four nodes.
+template <class Visit>
+constexpr void for_each_quadrilateral_face(std::size_t n_nodes, const Visit& visit) {
+  for (const LocalFace& face : volume_element(n_nodes).faces)
+    if (face.size == 4) visit(face);
+}
+
 /// Calls visit(positions) for the facets of a cell, with a range of positions in the cell. Facets
 /// are the sides of planar cells or the faces of volume cells, the latter with outward normals.
 template <class Visit>

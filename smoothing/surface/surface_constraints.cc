@@ -176,7 +176,8 @@ SurfaceMesh make_surface_mesh(CompressedRows<NodeIndex> cells, std::vector<Point
   add_implied_reasons(*topology, reasons);
   if (fixed) add_marks(*fixed, reasons);
   for (NodeIndex i = 0; i < n_nodes; ++i)
-    reasons[i] |= topology->fixed_reasons(i) & bit(FixedReason::unused);
+    reasons[i] |=
+        topology->fixed_reasons(i) & (bit(FixedReason::unused) | bit(FixedReason::midside));
   if (reasons != topology->fixed_reasons())
     topology = std::make_shared<const Topology>(dim, n_nodes, topology->cells(), std::move(reasons),
                                                 topology->labels());

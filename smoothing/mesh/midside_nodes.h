@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "smoothing/mesh/compressed_rows.h"
+#include "smoothing/mesh/point.h"
+
+/// Nodes of elements of second order besides their corners. A row of nodes, here and in files of
+/// most formats, begins with the corners in the order of volume_elements.h. Then follow the
+/// midside nodes: one for each edge, in the order of for_each_edge(); one for each quadrilateral
+/// face, in the order of the tables, if the element has such nodes; and the node in the middle of
+/// the cell, if it has one. In planar cells the last one is that of the face.
+///
+///   nodes beyond the corners            edges   faces   cell   name
+///   edge (2 corners)                                     1     line of three nodes
+///   triangle                  3, 4       3               0, 1  TRI6, TRI7
+///   quadrilateral             4, 5       4               0, 1  QUAD8, QUAD9
+///   tetrahedron               6          6                     TET10
+///   pyramid                   8, 9       8       0, 1          PYRAMID13, PYRAMID14
+///   prism                     9, 12      9       0, 3          PRISM15, PRISM18
+///   hexahedron               12, 19     12       0, 6    0, 1  HEX20, HEX27
+
+namespace smoothfem {
+
+/// Number of midside nodes of an element, by where they are.
+struct MidsideCounts {
+  std::size_t edges = 0, faces = 0, cell = 0;
+
+  constexpr std::size_t sum() const { return edges + faces + cell; }
+  constexpr bool operator==(const MidsideCounts&) const = default;
+};
+
+/// Returns where the n_midside nodes of an element lie. dim: its dimension, 1 to 3. All counts are
+/// 0 if there is no such element of second order.
+constexpr MidsideCounts midside_counts(int dim, std::size_t n_corners, std::size_t n_midside) {
+  struct Kind {
+    int dim;
+    std::size_t n_corners;
+    MidsideCounts counts;
+  };
+  constexpr std::array<Kind, 12> kinds{{{1, 2, {0, 0, 1}},
+                                        {2, 3, {3, 0, 0}},
+                                        {2, 3, {3, 0, 1}},
+                                        {2, 4, {4, 0, 0}},
+                                        {2, 4, {4, 0, 1}},
+                                        {3, 4, {6, 0, 0}},
+                                        {3, 5, {8, 0, 0}},
+                                        {3, 5, {8, 1, 0}},
+                                        {3, 6, {9, 0, 0}},
+                                        {3, 6, {9, 3, 0}},
+                                        {3, 8, {12, 0, 0}},
+                                        {3, 8, {12, 6, 1}}}};
+  for (const Kind& kind : kinds)
+    if (kind.dim == dim && kind.n_corners == n_corners && kind.counts.sum() == n_midside)
+      return kind.counts;
+  return {};
+}
+
+/// The midside nodes of a mesh's elements, a row for each. Rows of linear elements are empty.
+struct MidsideNodes {
+  CompressedRows<NodeIndex> of_cells, of_facets;         ///< cells, labelled facets
+  std::array<CompressedRows<NodeIndex>, 3> of_others{};  ///< FileContent::others, by dimension
+
+  bool operator==(const MidsideNodes&) const = default;
+};
+
+/// Throws CellError for the first cell whose midside nodes do not fit: their number is not one of
+/// the table above, a node is a corner of a cell or lies on two edges, or an edge or a face has
+/// another node in an earlier cell. dim: 2 or 3. cells: their corners, valid rows. midside: of the
+/// cells.
+void check_midside_nodes(int dim, std::size_t n_nodes, const CompressedRows<NodeIndex>& cells,
+                         const CompressedRows<NodeIndex>& midside);
+
+}  // namespace smoothfem
