@@ -105,10 +105,12 @@ std::vector<bool> add_unusable_cells(Findings& findings) {
   return usable;
 }
 
-void add_unused_nodes(Findings& findings) {
+/// midside: other nodes of the cells than corners.
+void add_unused_nodes(Findings& findings, const CompressedRows<NodeIndex>& midside) {
   const PlainCells& cells = findings.cells();
   std::vector<bool> used(cells.points.size(), false);
   for (const NodeIndex node : cells.cells.entries()) used[node] = true;
+  for (const NodeIndex node : midside.entries()) used[node] = true;
   const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
   if (count == 0) return;
   const auto first =
@@ -176,7 +178,7 @@ Examination examine(const MeshParts& parts) {
                      .findings = {}};
   Findings findings(cells, numbers);
   const auto usable = add_unusable_cells(findings);
-  add_unused_nodes(findings);
+  add_unused_nodes(findings, list.midside);
   std::vector<Finding> more;
   if (std::find(usable.begin(), usable.end(), false) == usable.end()) {
     more = examine_usable(cells, numbers);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "meshes/doctor/examinations/orientation.h"
 #include "meshes/doctor/examinations/same_cells.h"
@@ -37,6 +38,20 @@ std::string cell_text(const MeshParts& parts, CellIndex cell) {
   return text + " at " + place_text(parts.coordinates[list.nodes[cell][0]], cells_of(parts).planar);
 }
 
+/// Returns the midside nodes of cells some of which are turned over.
+CompressedRows<NodeIndex> turned_midside(int dim, const ElementList& list,
+                                         std::span<const CellIndex> reversed) {
+  CompressedRows<NodeIndex> result;
+  for (CellIndex c = 0; c < list.midside.size(); ++c) {
+    if (std::binary_search(reversed.begin(), reversed.end(), c))
+      result.append(
+          reordered_midside(dim, list.midside[c], reversed_corners(dim, list.nodes[c].size())));
+    else
+      result.append(list.midside[c]);
+  }
+  return result;
+}
+
 void turn_over(MeshParts& parts, std::vector<std::string>& done) {
   const PlainCells cells = cells_of(parts);
   const auto reversed = find_reversed_cells(cells).reversed;
@@ -47,7 +62,9 @@ void turn_over(MeshParts& parts, std::vector<std::string>& done) {
                  (one ? "it lists its" : "they list their") + " nodes in the wrong direction: " +
                  (one ? "" : "the first is ") + cell_text(parts, reversed.front()));
   auto turned = with_reversed(cells.dim, cells.cells, reversed);
-  parts.elements[cells.dim].nodes = std::move(turned);
+  ElementList& list = parts.elements[cells.dim];
+  if (!list.midside.empty()) list.midside = turned_midside(cells.dim, list, reversed);
+  list.nodes = std::move(turned);
 }
 
 /// Removes the elements with these indices (ascending) from a list.
@@ -66,10 +83,12 @@ void remove_elements(ElementList& list, const std::vector<std::uint32_t>& remove
   shorten(list.lines);
   shorten(list.entities);
   shorten(list.file_positions);
-  CompressedRows<NodeIndex> nodes;
+  std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < keep.size(); ++i)
-    if (keep[i]) nodes.append(list.nodes[i]);
+    if (keep[i]) kept.push_back(i);
+  auto [nodes, midside] = selected_nodes(list, kept);
   list.nodes = std::move(nodes);
+  list.midside = std::move(midside);
 }
 
 /// Removes facets of cells with the nodes and the tag of another one: the seam had them twice.
@@ -88,6 +107,31 @@ void remove_doubled_facets(MeshParts& parts) {
   }
 }
 
+/// Calls visit(place, node) for the midside nodes of all elements.
+template <class Visit>
+void for_each_midside_node(const MeshParts& parts, const Visit& visit) {
+  for (int dim = 1; dim <= 3; ++dim) {
+    const ElementList& list = parts.elements[dim];
+    for (std::size_t e = 0; e < list.midside.size(); ++e)
+      for_each_midside_place(dim, list.nodes[e], list.midside[e], visit);
+  }
+}
+
+/// Merges the midside nodes of edges and faces whose corners have become the same.
+void merge_midside(MeshParts& parts) {
+  std::map<MidsidePlace, NodeIndex> first_at;
+  for_each_midside_node(parts, [&](const MidsidePlace& place, NodeIndex node) {
+    NodeIndex& known = first_at.try_emplace(place, node).first->second;
+    known = std::min(known, node);
+  });
+  if (first_at.empty()) return;
+  std::vector<NodeIndex> first(parts.coordinates.size());
+  std::iota(first.begin(), first.end(), NodeIndex{0});
+  for_each_midside_node(
+      parts, [&](const MidsidePlace& place, NodeIndex node) { first[node] = first_at.at(place); });
+  renumber_nodes(parts, first);
+}
+
 void merge_coincident(MeshParts& parts, std::vector<std::string>& done) {
   const PlainCells cells = cells_of(parts);
   const std::size_t n_before = cells.points.size();
@@ -97,6 +141,7 @@ void merge_coincident(MeshParts& parts, std::vector<std::string>& done) {
   while (coincident.is_first(node)) ++node;
   const std::string place = place_text(cells.points[node], cells.planar);
   renumber_nodes(parts, coincident.first);
+  merge_midside(parts);
   remove_doubled_facets(parts);
   done.push_back("merged " + count_of(coincident.count, "coincident node") +
                  " with another node in the same place, " +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "meshes/io/mesh_view.h"
+#include "meshes/io/node_order.h"
 
 namespace smoothfem {
 
@@ -21,13 +23,15 @@ class AllElements {
     const MeshLabels& labels = topology.labels();
     const FileContent* content = mesh.content();
     const int dim = mesh.dimension();
-    add({dim, &topology.cells(), &labels.cell_tags, content ? &content->cell_entities : nullptr,
-         &labels.cell_ids});
-    add({dim - 1, &labels.facets, &labels.facet_tags, content ? &content->facet_entities : nullptr,
-         content ? &content->facet_ids : nullptr});
+    const MidsideNodes* midside = topology.midside();
+    add({dim, &topology.cells(), midside ? &midside->of_cells : nullptr, &labels.cell_tags,
+         content ? &content->cell_entities : nullptr, &labels.cell_ids});
+    add({dim - 1, &labels.facets, midside ? &midside->of_facets : nullptr, &labels.facet_tags,
+         content ? &content->facet_entities : nullptr, content ? &content->facet_ids : nullptr});
     for (int d = dim - 1; content && d >= 0; --d) {
       const OtherElements& others = content->others[static_cast<std::size_t>(d)];
-      add({d, &others.nodes, &others.tags, &others.entities, &others.ids});
+      add({d, &others.nodes, midside ? &midside->of_others[static_cast<std::size_t>(d)] : nullptr,
+           &others.tags, &others.entities, &others.ids});
     }
   }
 
@@ -43,8 +47,24 @@ class AllElements {
   }
 
   int dimension(std::size_t e) const { return part_of(e).dimension; }
+  /// Returns the corners.
   std::span<const NodeIndex> nodes(std::size_t e) const {
     return (*part_of(e).rows)[e - first_of(e)];
+  }
+  /// Returns the other nodes in the order of midside_nodes.h; none for linear elements.
+  std::span<const NodeIndex> midside(std::size_t e) const {
+    const auto* rows = part_of(e).midside;
+    return rows ? (*rows)[e - first_of(e)] : std::span<const NodeIndex>();
+  }
+  /// Returns all nodes in the order of a format, or that of midside_nodes.h. Valid until the next
+  /// call.
+  std::span<const NodeIndex> row(std::size_t e, const NodeOrder* order = nullptr) const {
+    const auto corners = nodes(e), others = midside(e);
+    if (others.empty()) return corners;
+    row_.assign(corners.begin(), corners.end());
+    row_.insert(row_.end(), others.begin(), others.end());
+    if (order) order->to_file(row_);
+    return row_;
   }
   /// Returns the physical tag; 0: none.
   int tag(std::size_t e) const { return value(part_of(e).tags, e); }
@@ -57,6 +77,7 @@ class AllElements {
   struct Part {
     int dimension;
     const CompressedRows<NodeIndex>* rows;
+    const CompressedRows<NodeIndex>* midside;  ///< null: all are linear
     const std::vector<int>* tags;
     const std::vector<int>* entities;
     const std::vector<std::size_t>* ids;
@@ -83,6 +104,7 @@ class AllElements {
 
   std::vector<Part> parts_;
   std::vector<std::size_t> ends_;
+  mutable std::vector<NodeIndex> row_;
 };
 
 }  // namespace smoothfem

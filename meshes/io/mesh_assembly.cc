@@ -21,6 +21,15 @@
 
 namespace smoothfem {
 
+ElementNodes selected_nodes(const ElementList& elements, std::span<const std::size_t> rows) {
+  ElementNodes selected;
+  for (const std::size_t e : rows) {
+    selected.nodes.append(elements.nodes[e]);
+    if (!elements.midside.empty()) selected.midside.append(elements.midside[e]);
+  }
+  return selected;
+}
+
 namespace {
 
 /// Returns the file's numbers if they differ from the order; otherwise nothing.
@@ -46,6 +55,11 @@ class LabelParts {
 
   MeshLabels make() {
     auto& cells = parts_.elements[dim_];
+    for (const ElementList& elements : parts_.elements)
+      has_midside_ = has_midside_ || !elements.midside.empty();
+    if (has_midside_)
+      for (std::size_t c = 0; c < cells.nodes.size(); ++c)
+        midside_.of_cells.append(cells.midside_of(c));
     take_positions(cells, all_of(cells));
     const auto is_set = [](int tag) { return tag != 0; };
     if (std::any_of(cells.tags.begin(), cells.tags.end(), is_set))
@@ -57,6 +71,7 @@ class LabelParts {
     for (int d = dim_ - 2; d >= 0; --d) add_others(d, all_of(parts_.elements[d]));
     labels_.names = std::move(parts_.names);
     arrange_fields();
+    if (has_midside_) labels_.midside = std::make_shared<const MidsideNodes>(std::move(midside_));
     labels_.content = std::make_shared<const FileContent>(std::move(content_));
     return std::move(labels_);
   }
@@ -86,6 +101,7 @@ class LabelParts {
     take_positions(facets, labelled);
     for (const std::size_t f : labelled) {
       labels_.facets.append(facets.nodes[f]);
+      if (has_midside_) midside_.of_facets.append(facets.midside_of(f));
       labels_.facet_tags.push_back(facets.tags[f]);
       if (!facets.ids.empty()) content_.facet_ids.push_back(facets.ids[f]);
       if (!facets.entities.empty()) content_.facet_entities.push_back(facets.entities[f]);
@@ -99,6 +115,8 @@ class LabelParts {
     take_positions(from, rows);
     for (const std::size_t e : rows) {
       to.nodes.append(from.nodes[e]);
+      if (has_midside_)
+        midside_.of_others[static_cast<std::size_t>(dimension)].append(from.midside_of(e));
       to.tags.push_back(from.tags.empty() ? 0 : from.tags[e]);
       if (!from.ids.empty()) to.ids.push_back(from.ids[e]);
       if (!from.entities.empty()) to.entities.push_back(from.entities[e]);
@@ -131,6 +149,8 @@ class LabelParts {
   int dim_;
   FileContent& content_;
   MeshLabels labels_;
+  bool has_midside_ = false;
+  MidsideNodes midside_;
   std::vector<std::uint32_t> positions_;  ///< in the file, of all elements
 };
 
@@ -405,13 +425,15 @@ void renumber_nodes(MeshParts& parts, std::span<const NodeIndex> first) {
   if (parts.fixed) parts.fixed->resize(n_left);
   if (!parts.node_ids.empty()) parts.node_ids.resize(n_left);
   for (int dim = 1; dim <= 3; ++dim)
-    parts.elements[dim].nodes = renumbered(parts.elements[dim].nodes, new_index);
+    for (auto* rows : {&parts.elements[dim].nodes, &parts.elements[dim].midside})
+      *rows = renumbered(*rows, new_index);
 }
 
 void drop_unused_nodes(MeshParts& parts) {
   std::vector<NodeIndex> first(parts.coordinates.size(), no_node);
   for (int dim = 1; dim <= 3; ++dim)
-    for (const NodeIndex node : parts.elements[dim].nodes.entries()) first[node] = node;
+    for (const auto* rows : {&parts.elements[dim].nodes, &parts.elements[dim].midside})
+      for (const NodeIndex node : rows->entries()) first[node] = node;
   renumber_nodes(parts, first);
 }
 

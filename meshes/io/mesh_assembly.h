@@ -21,13 +21,32 @@ constexpr NodeIndex no_node = std::numeric_limits<NodeIndex>::max();
 /// Elements of one dimension as listed in a file. Each of the vectors is empty or has one entry for
 /// each element.
 struct ElementList {
-  CompressedRows<NodeIndex> nodes;            ///< in the order of volume_elements.h
+  CompressedRows<NodeIndex> nodes;            ///< corners, in the order of volume_elements.h
+  CompressedRows<NodeIndex> midside{};        ///< other nodes, in the order of midside_nodes.h
   std::vector<int> tags;                      ///< physical tags; 0 means none
   std::vector<std::size_t> ids;               ///< the file's numbers
   std::vector<std::size_t> lines;             ///< lines of the file
   std::vector<int> entities;                  ///< of the model
   std::vector<std::uint32_t> file_positions;  ///< among all elements of the file, from 0
+
+  /// Adds the nodes of an element. all: in the order of midside_nodes.h.
+  void append_nodes(std::span<const NodeIndex> all, std::size_t n_corners) {
+    const bool is_first = midside.empty() && all.size() > n_corners;
+    while (is_first && midside.size() < nodes.size()) midside.append(std::span<const NodeIndex>());
+    nodes.append(all.first(n_corners));
+    if (is_first || !midside.empty()) midside.append(all.subspan(n_corners));
+  }
+  /// Returns the nodes of an element other than its corners.
+  std::span<const NodeIndex> midside_of(std::size_t e) const {
+    return midside.empty() ? std::span<const NodeIndex>() : midside[e];
+  }
 };
+
+/// Returns the rows of these elements in this order.
+struct ElementNodes {
+  CompressedRows<NodeIndex> nodes, midside;
+};
+ElementNodes selected_nodes(const ElementList& elements, std::span<const std::size_t> rows);
 
 /// Data that a reader of any format collects. Node indices follow the file's order, from 0.
 struct MeshParts {

@@ -189,8 +189,9 @@ const MeshFormat& format_for(const std::filesystem::path& path, const MeshView& 
   if (able.size() == 1) return *able.front();
   const bool is_polygonal = has_polygons(mesh.topology());
   const auto n_lost = [&](const MeshFormat* format) {
-    return std::tuple(is_polygonal && !format->holds_polygons, losses(*format, mesh).size(),
-                      !format->holds_fixed_nodes);
+    return std::tuple((is_polygonal && !format->holds_polygons) ||
+                          (mesh.topology().midside() && !format->holds_second_order),
+                      losses(*format, mesh).size(), !format->holds_fixed_nodes);
   };
   if (!able.empty())
     return **std::min_element(able.begin(), able.end(),
@@ -204,7 +205,16 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const M
                 const MeshWriteOptions& options) {
   require_sizes(path.string(), "cell", fields.cell, mesh.n_cells());
   require_sizes(path.string(), "point", fields.point, mesh.n_nodes());
-  format_for(path, mesh).write(path, mesh, fields, options);
+  const MeshFormat& format = format_for(path, mesh);
+  if (mesh.topology().midside() && !format.holds_second_order) {
+    std::vector<std::string> others;
+    for (const MeshFormat& other : mesh_formats())
+      if (other.holds_second_order && other.write) others.push_back(other.extension);
+    throw InputError("cannot write " + path.string() +
+                     ": the mesh has elements of second order, and the format " + format.name +
+                     " holds linear ones only; use one of " + joined(others));
+  }
+  format.write(path, mesh, fields, options);
 }
 
 WriteTarget parse_write_target(const std::string& text) {

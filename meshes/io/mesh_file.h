@@ -87,6 +87,7 @@ struct MeshFormat {
   std::vector<std::string> other_extensions{};
   bool holds_planar_meshes = false, holds_volume_meshes = false, holds_surface_meshes = false;
   bool holds_polygons = false;        ///< cells with five or more nodes
+  bool holds_second_order = false;    ///< elements with midside nodes
   bool holds_tags = true;             ///< tags of cells
   bool holds_fixed_nodes = false;     ///< otherwise boundary nodes are fixed after reading
   bool adds_fixed_nodes = false;      ///< to those of the boundary

@@ -4,12 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
+#include <span>
 #include <type_traits>
+#include <vector>
 
+#include "smoothing/mesh/midside_nodes.h"
 #include "smoothing/mesh/volume_elements.h"
 
-/// Node orders of files that differ from those of volume_elements.h. Tetrahedra, pyramids and
-/// hexahedra have one order everywhere; of the formats known here only VTK's wedge differs:
+/// Node orders of files that differ from those of volume_elements.h. The corners of tetrahedra,
+/// pyramids and hexahedra have one order everywhere; of the formats known here only VTK's wedge
+/// differs:
 ///
 ///         5                4
 ///        /|\              /|\       Inside, in Gmsh, Medit and Abaqus (left) the nodes 0, 1, 2 run
@@ -43,6 +48,124 @@ void permute(Row&& row, const std::array<LocalIndex, n>& order) {
   std::array<typename std::remove_reference_t<Row>::value_type, n> copy;
   std::copy_n(row.begin(), n, copy.begin());
   for (std::size_t k = 0; k < n; ++k) row[k] = copy[order[k]];
+}
+
+/// Order in which a format lists all nodes of an element of second order.
+struct NodeOrder {
+  /// Positions in a row of midside_nodes.h.
+  std::array<LocalIndex, 27> positions{};
+  LocalIndex size = 0;
+
+  constexpr void add(std::size_t position) {
+    positions[size++] = static_cast<LocalIndex>(position);
+  }
+  /// Changes a row of the format into one of midside_nodes.h.
+  void from_file(std::span<NodeIndex> row) const {
+    const auto listed = copy_of(row);
+    for (std::size_t k = 0; k < size; ++k) row[positions[k]] = listed[k];
+  }
+  /// Changes a row of midside_nodes.h into one of the format.
+  void to_file(std::span<NodeIndex> row) const {
+    const auto ours = copy_of(row);
+    for (std::size_t k = 0; k < size; ++k) row[k] = ours[positions[k]];
+  }
+
+ private:
+  std::array<NodeIndex, 27> copy_of(std::span<const NodeIndex> row) const {
+    std::array<NodeIndex, 27> copy{};
+    std::copy_n(row.begin(), size, copy.begin());
+    return copy;
+  }
+};
+
+/// Returns the order of a format that lists the corners in the order of volume_elements.h, then the
+/// nodes of these edges, by their corners. dim: 2 or 3.
+constexpr NodeOrder node_order(int dim, std::size_t n_corners,
+                               std::initializer_list<LocalEdge> edges) {
+  NodeOrder order;
+  for (std::size_t k = 0; k < n_corners; ++k) order.add(k);
+  for (const auto& [a, b] : edges) {
+    std::size_t position = n_corners;
+    for_each_edge(dim, n_corners, [&, a = a, b = b](std::size_t p, std::size_t q) {
+      if ((p == a && q == b) || (p == b && q == a)) order.add(position);
+      ++position;
+    });
+  }
+  return order;
+}
+
+/// Returns the order of a format that then lists the nodes of these quadrilateral faces, by two
+/// opposite corners, and the node in the middle of the cell, if it has one. edges: the order of
+/// corners and edges.
+constexpr NodeOrder with_middles(const NodeOrder& edges, std::size_t n_corners,
+                                 std::initializer_list<LocalEdge> faces, bool has_cell) {
+  NodeOrder order = edges;
+  for (const auto& [a, b] : faces) {
+    std::size_t position = edges.size;
+    for_each_quadrilateral_face(n_corners, [&, a = a, b = b](const LocalFace& face) {
+      bool has_a = false, has_b = false;
+      for (const LocalIndex k : face.nodes) {
+        has_a = has_a || k == a;
+        has_b = has_b || k == b;
+      }
+      if (has_a && has_b) order.add(position);
+      ++position;
+    });
+  }
+  if (has_cell) order.add(order.size);
+  return order;
+}
+
+/// Orders that all formats share: a line whose middle node comes last, and planar cells.
+inline constexpr NodeOrder line_3{{0, 1, 2}, 3};
+inline constexpr NodeOrder triangle_6 = node_order(2, 3, {{0, 1}, {1, 2}, {2, 0}});
+inline constexpr NodeOrder triangle_7 = with_middles(triangle_6, 3, {}, true);
+inline constexpr NodeOrder quadrilateral_8 = node_order(2, 4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}});
+inline constexpr NodeOrder quadrilateral_9 = with_middles(quadrilateral_8, 4, {}, true);
+/// Orders of VTK and Abaqus.
+inline constexpr NodeOrder tetrahedron_10 =
+    node_order(3, 4, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}});
+inline constexpr NodeOrder pyramid_13 =
+    node_order(3, 5, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}});
+inline constexpr NodeOrder prism_15 =
+    node_order(3, 6, {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}});
+inline constexpr NodeOrder hexahedron_20 = node_order(3, 8,
+                                                      {{0, 1},
+                                                       {1, 2},
+                                                       {2, 3},
+                                                       {3, 0},
+                                                       {4, 5},
+                                                       {5, 6},
+                                                       {6, 7},
+                                                       {7, 4},
+                                                       {0, 4},
+                                                       {1, 5},
+                                                       {2, 6},
+                                                       {3, 7}});
+
+/// An element of second order in a format.
+struct SecondOrderType {
+  int number;  ///< of the format, for example VTK's
+  int dimension;
+  std::size_t n_corners;
+  NodeOrder order;
+};
+
+/// Returns the first type of a number with so many nodes (0: any), or the one of an element; null
+/// if there is none.
+constexpr const SecondOrderType* find_type(std::span<const SecondOrderType> types, int number,
+                                           std::size_t n_nodes = 0) {
+  for (const SecondOrderType& type : types)
+    if (type.number == number && (n_nodes == 0 || type.order.size == n_nodes)) return &type;
+  return nullptr;
+}
+constexpr const SecondOrderType* find_type(std::span<const SecondOrderType> types, int dimension,
+                                           std::size_t n_corners, std::size_t n_midside) {
+  for (const SecondOrderType& type : types)
+    if (type.dimension == dimension && type.n_corners == n_corners &&
+        type.order.size == n_corners + n_midside)
+      return &type;
+  return nullptr;
 }
 
 }  // namespace smoothfem

@@ -142,7 +142,10 @@ std::array<std::size_t, fixed_reasons.size()> count_fixed_reasons(const Topology
 }
 
 std::string fixed_reasons_text(const Topology& topology) {
-  const std::size_t n_fixed = topology.n_nodes() - topology.free_nodes().size();
+  const auto& reasons = topology.fixed_reasons();
+  const auto n_fixed = std::count_if(reasons.begin(), reasons.end(), [](FixedReasons of_node) {
+    return of_node != 0 && !has(of_node, FixedReason::midside);
+  });
   if (n_fixed == 0) return {};
   std::string text;
   const auto counts = count_fixed_reasons(topology);

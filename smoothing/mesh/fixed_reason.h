@@ -35,6 +35,7 @@ struct NamedFixedReason {
   FixedReason reason;
   std::string_view name;  ///< for lists and JSON
 };
+/// All but those of midside nodes, which do not stay but follow.
 inline constexpr std::array fixed_reasons{NamedFixedReason{FixedReason::boundary, "boundary"},
                                           NamedFixedReason{FixedReason::marked, "marked"},
                                           NamedFixedReason{FixedReason::interface, "interface"},
@@ -43,7 +44,6 @@ inline constexpr std::array fixed_reasons{NamedFixedReason{FixedReason::boundary
                                           NamedFixedReason{FixedReason::layer, "layer"},
                                           NamedFixedReason{FixedReason::periodic, "periodic"},
                                           NamedFixedReason{FixedReason::corner, "corner"},
-                                          NamedFixedReason{FixedReason::unused, "unused"},
-                                          NamedFixedReason{FixedReason::midside, "midside"}};
+                                          NamedFixedReason{FixedReason::unused, "unused"}};
 
 }  // namespace smoothfem

@@ -2,7 +2,6 @@
 #include "smoothing/mesh/midside_nodes.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -14,55 +13,72 @@ namespace smoothfem {
 
 namespace {
 
-/// A midside node, the corners of its edge or face, sorted, and one of its cells.
+/// A midside node, and one of its cells.
 struct Placed {
-  std::array<NodeIndex, 4> corners;
+  MidsidePlace place;
   NodeIndex node;
   CellIndex cell;
 
-  auto by_corners() const { return std::tie(corners, cell); }
+  auto by_place() const { return std::tie(place, cell); }
   auto by_node() const { return std::tie(node, cell); }
 };
 
-std::string place_name(const std::array<NodeIndex, 4>& corners) {
-  constexpr NodeIndex none = std::numeric_limits<NodeIndex>::max();
-  const bool is_edge = corners[2] == none;
-  return (is_edge ? "the edge between nodes " : "the face with nodes ") +
-         std::to_string(corners[0]) + " and " + std::to_string(is_edge ? corners[1] : corners[2]);
+std::string place_name(const MidsidePlace& place) {
+  const bool is_edge = place[2] == no_corner;
+  return (is_edge ? "the edge between nodes " : "the face with nodes ") + std::to_string(place[0]) +
+         " and " + std::to_string(is_edge ? place[1] : place[2]);
 }
 
-/// Collects the nodes of edges and faces. The node in a cell's middle belongs to no other cell.
 std::vector<Placed> placed_nodes(int dim, const CompressedRows<NodeIndex>& cells,
                                  const CompressedRows<NodeIndex>& midside) {
-  constexpr NodeIndex none = std::numeric_limits<NodeIndex>::max();
   std::vector<Placed> all;
   all.reserve(midside.n_entries());
-  for (CellIndex c = 0; c < cells.size(); ++c) {
-    const auto corners = cells[c], nodes = midside[c];
-    if (nodes.empty()) continue;
-    const auto counts = midside_counts(dim, corners.size(), nodes.size());
-    std::size_t next = 0;
-    for_each_edge(dim, corners.size(), [&](std::size_t a, std::size_t b) {
-      const auto [low, high] = std::minmax(corners[a], corners[b]);
-      all.push_back({{low, high, none, none}, nodes[next++], c});
-    });
-    if (counts.faces > 0)
-      for_each_quadrilateral_face(corners.size(), [&](const LocalFace& face) {
-        std::array<NodeIndex, 4> of_face{};
-        for (std::size_t k = 0; k < 4; ++k) of_face[k] = corners[face.nodes[k]];
-        std::sort(of_face.begin(), of_face.end());
-        all.push_back({of_face, nodes[next++], c});
-      });
-    if (counts.cell > 0) all.push_back({{none, none, none, none}, nodes[next], c});
-  }
+  for (CellIndex c = 0; c < cells.size(); ++c)
+    for_each_midside_place(dim, cells[c], midside[c],
+                           [&](const MidsidePlace& place, NodeIndex node) {
+                             all.push_back({place, node, c});
+                           });
   return all;
+}
+
+/// Calls visit(places) for the corners' positions of each edge, then of each quadrilateral face of
+/// a volume cell: the order of midside nodes.
+template <class Visit>
+void for_each_place(int dim, std::size_t n_corners, const Visit& visit) {
+  for_each_edge(dim, n_corners, [&](std::size_t a, std::size_t b) {
+    visit(std::vector<LocalIndex>{static_cast<LocalIndex>(a), static_cast<LocalIndex>(b)});
+  });
+  if (dim == 3)
+    for_each_quadrilateral_face(n_corners, [&](const LocalFace& face) {
+      visit(std::vector<LocalIndex>(face.nodes.begin(), face.nodes.end()));
+    });
 }
 
 }  // namespace
 
+std::vector<NodeIndex> reordered_midside(int dim, std::span<const NodeIndex> midside,
+                                         std::span<const LocalIndex> corners) {
+  std::vector<std::vector<LocalIndex>> old_places, new_places;
+  for_each_place(dim, corners.size(), [&](std::vector<LocalIndex> place) {
+    auto old = place;
+    for (LocalIndex& corner : old) corner = corners[corner];
+    std::sort(old.begin(), old.end());
+    new_places.push_back(std::move(old));  // of the new place, in old positions
+    std::sort(place.begin(), place.end());
+    old_places.push_back(std::move(place));
+  });
+  std::vector<NodeIndex> result(midside.begin(), midside.end());  // the cell's node stays
+  const MidsideCounts counts = midside_counts(dim, corners.size(), midside.size());
+  const std::size_t n_placed = counts.edges + counts.faces;
+  for (std::size_t k = 0; k < n_placed; ++k) {
+    const auto old = std::find(old_places.begin(), old_places.end(), new_places[k]);
+    result[k] = midside[static_cast<std::size_t>(old - old_places.begin())];
+  }
+  return result;
+}
+
 void check_midside_nodes(int dim, std::size_t n_nodes, const CompressedRows<NodeIndex>& cells,
                          const CompressedRows<NodeIndex>& midside) {
-  constexpr NodeIndex none = std::numeric_limits<NodeIndex>::max();
   std::vector<bool> is_corner(n_nodes, false);
   for (const NodeIndex node : cells.entries()) is_corner[node] = true;
   for (CellIndex c = 0; c < cells.size(); ++c) {
@@ -85,18 +101,18 @@ void check_midside_nodes(int dim, std::size_t n_nodes, const CompressedRows<Node
             [](const Placed& a, const Placed& b) { return a.by_node() < b.by_node(); });
   for (std::size_t i = 1; i < placed.size(); ++i) {
     const Placed &a = placed[i - 1], &b = placed[i];
-    if (a.node == b.node && (a.corners != b.corners || b.corners[0] == none))
+    if (a.node == b.node && a.place != b.place)
       throw CellError(b.cell, "has the midside node " + std::to_string(b.node) +
                                   ", which also belongs to another edge or face");
   }
   std::sort(placed.begin(), placed.end(),
-            [](const Placed& a, const Placed& b) { return a.by_corners() < b.by_corners(); });
+            [](const Placed& a, const Placed& b) { return a.by_place() < b.by_place(); });
   for (std::size_t i = 1; i < placed.size(); ++i) {
     const Placed &a = placed[i - 1], &b = placed[i];
-    if (a.corners == b.corners && b.corners[0] != none && a.node != b.node)
-      throw CellError(b.cell, "has node " + std::to_string(b.node) + " on " +
-                                  place_name(b.corners) + ", where cell " + std::to_string(a.cell) +
-                                  " has node " + std::to_string(a.node));
+    if (a.place == b.place && a.node != b.node)
+      throw CellError(b.cell, "has node " + std::to_string(b.node) + " on " + place_name(b.place) +
+                                  ", where cell " + std::to_string(a.cell) + " has node " +
+                                  std::to_string(a.node));
   }
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "smoothing/mesh/compressed_rows.h"
 #include "smoothing/mesh/point.h"
+#include "smoothing/mesh/volume_elements.h"
 
 /// Nodes of elements of second order besides their corners. A row of nodes, here and in files of
 /// most formats, begins with the corners in the order of volume_elements.h. Then follow the
@@ -66,6 +70,48 @@ struct MidsideNodes {
 
   bool operator==(const MidsideNodes&) const = default;
 };
+
+/// The edge, face or cell that a midside node belongs to: its corners, ascending, then no_corner. A
+/// hexahedron is known by two opposite corners.
+using MidsidePlace = std::array<NodeIndex, 4>;
+constexpr NodeIndex no_corner = std::numeric_limits<NodeIndex>::max();
+
+/// Calls visit(place, node) for the midside nodes of an element in their order. dim: its
+/// dimension, 1 to 3.
+template <class Visit>
+void for_each_midside_place(int dim, std::span<const NodeIndex> corners,
+                            std::span<const NodeIndex> midside, const Visit& visit) {
+  if (midside.empty()) return;
+  const MidsideCounts counts = midside_counts(dim, corners.size(), midside.size());
+  std::size_t next = 0;
+  if (counts.edges > 0)
+    for_each_edge(dim, corners.size(), [&](std::size_t a, std::size_t b) {
+      const auto [low, high] = std::minmax(corners[a], corners[b]);
+      visit(MidsidePlace{low, high, no_corner, no_corner}, midside[next++]);
+    });
+  if (counts.faces > 0)
+    for_each_quadrilateral_face(corners.size(), [&](const LocalFace& face) {
+      MidsidePlace place;
+      for (std::size_t k = 0; k < place.size(); ++k) place[k] = corners[face.nodes[k]];
+      std::sort(place.begin(), place.end());
+      visit(place, midside[next++]);
+    });
+  if (counts.cell == 0) return;
+  MidsidePlace place{no_corner, no_corner, no_corner, no_corner};
+  if (dim == 3) {
+    place[0] = place[1] = std::min(corners[0], corners[6]);
+    place[2] = place[3] = std::max(corners[0], corners[6]);
+  } else {
+    std::copy(corners.begin(), corners.end(), place.begin());
+    std::sort(place.begin(), place.end());
+  }
+  visit(place, midside[next]);
+}
+
+/// Returns the midside nodes of an element whose corners change their order. dim: 2 or 3. midside:
+/// before. corners: for each new position of a corner the old one.
+std::vector<NodeIndex> reordered_midside(int dim, std::span<const NodeIndex> midside,
+                                         std::span<const LocalIndex> corners);
 
 /// Throws CellError for the first cell whose midside nodes do not fit: their number is not one of
 /// the table above, a node is a corner of a cell or lies on two edges, or an edge or a face has

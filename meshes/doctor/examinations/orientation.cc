@@ -2,6 +2,7 @@
 #include "meshes/doctor/examinations/orientation.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "meshes/doctor/examinations/disjoint_sets.h"
 #include "smoothing/geometry/cell_size.h"
@@ -80,11 +81,13 @@ Orientation find_reversed_cells(const PlainCells& cells, const FacetTable& table
 namespace {
 
 /// Reverses a ring of nodes, except for its first one.
-void reverse_ring(std::span<NodeIndex> ring) {
+template <class Index>
+void reverse_ring(std::span<Index> ring) {
   std::reverse(ring.begin() + 1, ring.end());
 }
 
-void reverse(int dim, std::span<NodeIndex> nodes) {
+template <class Index>
+void reverse(int dim, std::span<Index> nodes) {
   const std::size_t n = nodes.size();
   if (dim == 2) return reverse_ring(nodes);
   const std::size_t n_base = n == 4 || n == 6 ? 3 : 4;
@@ -94,6 +97,13 @@ void reverse(int dim, std::span<NodeIndex> nodes) {
 
 }  // namespace
 
+std::vector<LocalIndex> reversed_corners(int dim, std::size_t n_corners) {
+  std::vector<LocalIndex> corners(n_corners);
+  std::iota(corners.begin(), corners.end(), LocalIndex{0});
+  reverse(dim, std::span(corners));
+  return corners;
+}
+
 CompressedRows<NodeIndex> with_reversed(int dim, const CompressedRows<NodeIndex>& cells,
                                         std::span<const CellIndex> reversed) {
   CompressedRows<NodeIndex> result;
@@ -101,7 +111,7 @@ CompressedRows<NodeIndex> with_reversed(int dim, const CompressedRows<NodeIndex>
   for (CellIndex c = 0; c < cells.size(); ++c) {
     nodes.assign(cells[c].begin(), cells[c].end());
     if (!reversed.empty() && reversed.front() == c) {
-      reverse(dim, nodes);
+      reverse(dim, std::span(nodes));
       reversed = reversed.subspan(1);
     }
     result.append(nodes);

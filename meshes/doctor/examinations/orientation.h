@@ -27,6 +27,9 @@ Orientation find_reversed_cells(const PlainCells& cells, const FacetTable& table
 /// reversed or folded.
 double signed_size(const PlainCells& cells, CellIndex cell);
 
+/// Returns for each corner of a reversed cell its position in the cell before.
+std::vector<LocalIndex> reversed_corners(int dim, std::size_t n_corners);
+
 /// Returns the cells with the direction of some of them changed. These keep their first node.
 CompressedRows<NodeIndex> with_reversed(int dim, const CompressedRows<NodeIndex>& cells,
                                         std::span<const CellIndex> reversed);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "meshes/io/mesh_file.h"
+#include "meshes/io/node_order.h"
 
 namespace smoothfem {
 
@@ -22,8 +23,10 @@ namespace smoothfem {
 /// fixed; without it the boundary is fixed. Included files (*INCLUDE, INPUT=) are read if they are
 /// in the folder of the file or below.
 ///
-/// Throws InputError for nodes and elements that Abaqus would generate, and elements with
-/// mid-nodes.
+/// Elements of second order (C3D10, C3D13, C3D15, C3D20, CPS6, CPS8, S6, S8, T2D3, B32 and
+/// variants) are read, too.
+///
+/// Throws InputError for nodes and elements that Abaqus would generate.
 MeshParts read_abaqus(const std::filesystem::path& path, const MeshReadOptions& = {});
 
 /// Writes an Abaqus input file. A mesh that was read from one gets its text, with that of included
@@ -33,13 +36,16 @@ MeshParts read_abaqus(const std::filesystem::path& path, const MeshReadOptions& 
 void write_abaqus(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                   const MeshWriteOptions& options);
 
-/// Dimension and number of nodes of an element type of Abaqus.
+/// An element type of Abaqus. Types of second order list the corners first and then the nodes of
+/// the edges, as VTK does; lines list their middle node between the ends.
 struct AbaqusElement {
   int dimension;
-  std::size_t n_nodes;
+  std::size_t n_corners;
+  const NodeOrder* order = nullptr;  ///< null: linear elements
+
+  std::size_t n_nodes() const { return order ? order->size : n_corners; }
 };
-/// Returns the element of a type in capitals. Returns nothing for unknown types and types with
-/// nodes other than their corners.
+/// Returns the element of a type in capitals; nothing for unknown types.
 std::optional<AbaqusElement> abaqus_element(std::string_view type);
 
 /// Names that reader and writer share.

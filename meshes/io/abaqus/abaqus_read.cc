@@ -77,6 +77,7 @@ class AbaqusReader {
     place_instances();
     sort_nodes();
     for (int dimension = 1; dimension <= 3; ++dimension) add_elements(dimension);
+    find_middles_of_lines();
     describe_content();
     return std::move(parts_);
   }
@@ -191,9 +192,10 @@ class AbaqusReader {
         LabelledElements& to = whole_.elements[d];
         for (std::size_t e = 0; e < from.list.ids.size(); ++e) {
           row_.clear();
-          for (const NodeIndex label : from.list.nodes[e])
-            row_.push_back(static_cast<NodeIndex>(label + node_base));
-          to.list.nodes.append(row_);
+          for (const auto labels : {from.list.nodes[e], from.list.midside_of(e)})
+            for (const NodeIndex label : labels)
+              row_.push_back(static_cast<NodeIndex>(label + node_base));
+          to.list.append_nodes(row_, from.list.nodes[e].size());
           to.list.ids.push_back(from.list.ids[e] + element_base);
           to.list.lines.push_back(from.list.lines[e]);
           to.sets.push_back(set_of(from.sets[e]));
@@ -259,10 +261,10 @@ class AbaqusReader {
       return;
     }
     if (!element)
-      lines_.fail(
-          "the element type '" + type +
-          "' cannot be read; use C3D4, C3D5, C3D6, C3D8, CPS3, CPS4, S3, S4 or similar types, "
-          "whose nodes are their corners");
+      lines_.fail("the element type '" + type +
+                  "' cannot be read; use C3D4, C3D6, C3D8, C3D10, C3D15, C3D20, CPS3, CPS4, CPS6, "
+                  "CPS8, S3, "
+                  "S4 or similar types");
     auto& elements = mesh_->elements[static_cast<std::size_t>(element->dimension)];
     const std::size_t set = set_number(lines_.parameter("ELSET"));
     while (lines_.next_data()) {
@@ -271,19 +273,20 @@ class AbaqusReader {
       elements.sets.push_back(set);
       row_.clear();
       // Labels are replaced by indices when all nodes are known.
-      while (row_.size() < element->n_nodes) {
+      while (row_.size() < element->n_nodes()) {
         if (!lines_.has_field() && !lines_.next_data())
           lines_.fail("the element has " + std::to_string(row_.size()) + " nodes, but its type " +
-                      type + " has " + std::to_string(element->n_nodes));
+                      type + " has " + std::to_string(element->n_nodes()));
         const std::size_t label = lines_.label("the node");
         if (label >= std::numeric_limits<NodeIndex>::max())
           lines_.fail("the label " + std::to_string(label) + " is too large");
         row_.push_back(static_cast<NodeIndex>(label));
       }
       if (lines_.has_field())
-        lines_.fail("the element has more nodes than the " + std::to_string(element->n_nodes) +
+        lines_.fail("the element has more nodes than the " + std::to_string(element->n_nodes()) +
                     " of its type " + type);
-      elements.list.nodes.append(row_);
+      if (element->order) element->order->from_file(row_);
+      elements.list.append_nodes(row_, element->n_corners);
     }
   }
 
@@ -426,13 +429,41 @@ class AbaqusReader {
       if (!to.ids.empty() && to.ids.back() == id)
         lines_.fail_at(line, "the element " + std::to_string(id) + " is defined twice");
       row_.clear();
-      for (const NodeIndex label : from.list.nodes[e]) row_.push_back(node_index(label, line));
-      to.nodes.append(row_);
+      for (const auto labels : {from.list.nodes[e], from.list.midside_of(e)})
+        for (const NodeIndex label : labels) row_.push_back(node_index(label, line));
+      to.append_nodes(row_, from.list.nodes[e].size());
       to.ids.push_back(id);
       to.lines.push_back(line);
       sets.push_back(from.sets[e]);
     }
     add_groups(dimension, combine_sets(to.ids, sets, whole_.set_ranges));
+  }
+
+  /// Abaqus lists the middle node of a line second, but some programs list it last: the nodes of
+  /// most lines decide.
+  void find_middles_of_lines() {
+    ElementList& lines = parts_.elements[1];
+    const auto& points = parts_.coordinates;
+    const auto distance = [&](NodeIndex node, NodeIndex a, NodeIndex b) {
+      return (points[node] - 0.5 * (points[a] + points[b])).norm();
+    };
+    std::ptrdiff_t votes = 0;  // for the second
+    for (std::size_t e = 0; e < lines.midside.size(); ++e)
+      if (!lines.midside[e].empty()) {
+        const NodeIndex first = lines.nodes[e][0], second = lines.nodes[e][1],
+                        third = lines.midside[e][0];
+        votes += distance(second, first, third) <= distance(third, first, second) ? 1 : -1;
+      }
+    if (votes < 0 || lines.midside.empty()) return;
+    ElementNodes turned;
+    for (std::size_t e = 0; e < lines.nodes.size(); ++e) {
+      const auto ends = lines.nodes[e], middle = lines.midside[e];
+      turned.nodes.append(middle.empty() ? std::array{ends[0], ends[1]}
+                                         : std::array{ends[0], middle[0]});
+      turned.midside.append(middle.empty() ? middle : ends.subspan(1));
+    }
+    lines.nodes = std::move(turned.nodes);
+    lines.midside = std::move(turned.midside);
   }
 
   /// Gives elements the tag of the first of their sets. Elements in several sets belong to an
@@ -514,6 +545,7 @@ const RegisteredFormat abaqus({.name = "abaqus",
                                .description = "Abaqus and CalculiX input",
                                .holds_planar_meshes = true,
                                .holds_volume_meshes = true,
+                               .holds_second_order = true,
                                .holds_fixed_nodes = true,
                                .holds_facets = true,
                                .holds_physical_names = true,

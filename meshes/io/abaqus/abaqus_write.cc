@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -26,25 +27,71 @@ struct NamedElement {
 
 /// The types that the writer uses come first of their kind: continuum elements in space, plane
 /// stress elements, shells, trusses.
-constexpr std::array element_types{
-    NamedElement{"C3D4", {3, 4}}, NamedElement{"C3D5", {3, 5}},   NamedElement{"C3D6", {3, 6}},
-    NamedElement{"C3D8", {3, 8}}, NamedElement{"SC6", {3, 6}},    NamedElement{"SC8", {3, 8}},
-    NamedElement{"CPS3", {2, 3}}, NamedElement{"CPS4", {2, 4}},   NamedElement{"CPE3", {2, 3}},
-    NamedElement{"CPE4", {2, 4}}, NamedElement{"CAX3", {2, 3}},   NamedElement{"CAX4", {2, 4}},
-    NamedElement{"C2D3", {2, 3}}, NamedElement{"C2D4", {2, 4}},   NamedElement{"S3", {2, 3}},
-    NamedElement{"S4", {2, 4}},   NamedElement{"STRI3", {2, 3}},  NamedElement{"M3D3", {2, 3}},
-    NamedElement{"M3D4", {2, 4}}, NamedElement{"SFM3D3", {2, 3}}, NamedElement{"SFM3D4", {2, 4}},
-    NamedElement{"R3D3", {2, 3}}, NamedElement{"R3D4", {2, 4}},   NamedElement{"T2D2", {1, 2}},
-    NamedElement{"T3D2", {1, 2}}, NamedElement{"B21", {1, 2}},    NamedElement{"B31", {1, 2}},
-    NamedElement{"R2D2", {1, 2}}, NamedElement{"SAX1", {1, 2}}};
+constexpr std::array element_types{NamedElement{"C3D4", {3, 4}},
+                                   NamedElement{"C3D5", {3, 5}},
+                                   NamedElement{"C3D6", {3, 6}},
+                                   NamedElement{"C3D8", {3, 8}},
+                                   NamedElement{"C3D10", {3, 4, &tetrahedron_10}},
+                                   NamedElement{"C3D13", {3, 5, &pyramid_13}},
+                                   NamedElement{"C3D15", {3, 6, &prism_15}},
+                                   NamedElement{"C3D20", {3, 8, &hexahedron_20}},
+                                   NamedElement{"SC6", {3, 6}},
+                                   NamedElement{"SC8", {3, 8}},
+                                   NamedElement{"CPS3", {2, 3}},
+                                   NamedElement{"CPS4", {2, 4}},
+                                   NamedElement{"CPS6", {2, 3, &triangle_6}},
+                                   NamedElement{"CPS8", {2, 4, &quadrilateral_8}},
+                                   NamedElement{"M3D9", {2, 4, &quadrilateral_9}},
+                                   NamedElement{"CPE6", {2, 3, &triangle_6}},
+                                   NamedElement{"CPE8", {2, 4, &quadrilateral_8}},
+                                   NamedElement{"CAX6", {2, 3, &triangle_6}},
+                                   NamedElement{"CAX8", {2, 4, &quadrilateral_8}},
+                                   NamedElement{"C2D6", {2, 3, &triangle_6}},
+                                   NamedElement{"C2D8", {2, 4, &quadrilateral_8}},
+                                   NamedElement{"CPE3", {2, 3}},
+                                   NamedElement{"CPE4", {2, 4}},
+                                   NamedElement{"CAX3", {2, 3}},
+                                   NamedElement{"CAX4", {2, 4}},
+                                   NamedElement{"C2D3", {2, 3}},
+                                   NamedElement{"C2D4", {2, 4}},
+                                   NamedElement{"S3", {2, 3}},
+                                   NamedElement{"S4", {2, 4}},
+                                   NamedElement{"S6", {2, 3, &triangle_6}},
+                                   NamedElement{"STRI65", {2, 3, &triangle_6}},
+                                   NamedElement{"S8", {2, 4, &quadrilateral_8}},
+                                   NamedElement{"S9R5", {2, 4, &quadrilateral_9}},
+                                   NamedElement{"M3D6", {2, 3, &triangle_6}},
+                                   NamedElement{"M3D8", {2, 4, &quadrilateral_8}},
+                                   NamedElement{"SFM3D6", {2, 3, &triangle_6}},
+                                   NamedElement{"SFM3D8", {2, 4, &quadrilateral_8}},
+                                   NamedElement{"STRI3", {2, 3}},
+                                   NamedElement{"M3D3", {2, 3}},
+                                   NamedElement{"M3D4", {2, 4}},
+                                   NamedElement{"SFM3D3", {2, 3}},
+                                   NamedElement{"SFM3D4", {2, 4}},
+                                   NamedElement{"R3D3", {2, 3}},
+                                   NamedElement{"R3D4", {2, 4}},
+                                   NamedElement{"T2D2", {1, 2}},
+                                   NamedElement{"T3D2", {1, 2}},
+                                   NamedElement{"B21", {1, 2}},
+                                   NamedElement{"B31", {1, 2}},
+                                   NamedElement{"R2D2", {1, 2}},
+                                   NamedElement{"SAX1", {1, 2}},
+                                   NamedElement{"T2D3", {1, 2, &line_3}},
+                                   NamedElement{"T3D3", {1, 2, &line_3}},
+                                   NamedElement{"B22", {1, 2, &line_3}},
+                                   NamedElement{"B32", {1, 2, &line_3}},
+                                   NamedElement{"SAX2", {1, 2, &line_3}}};
 
-/// Facets of volume meshes are shells, those of planar meshes trusses.
-std::string type_name(int mesh_dim, int dim, std::size_t n_nodes) {
-  if (dim == 1) return "T2D2";
-  if (dim < mesh_dim) return n_nodes == 3 ? "S3" : "S4";
-  for (const auto& [name, element] : element_types)
-    if (element.dimension == dim && element.n_nodes == n_nodes) return std::string(name);
-  return {};
+/// Returns the type of an element of a mesh of dimension mesh_dim; null if Abaqus has none. Facets
+/// of volume meshes are shells, lines are trusses.
+const NamedElement* type_of(int mesh_dim, int dim, std::size_t n_corners, std::size_t n_midside) {
+  for (const NamedElement& type : element_types)
+    if (type.element.dimension == dim && type.element.n_corners == n_corners &&
+        type.element.n_nodes() == n_corners + n_midside &&
+        (dim != 2 || mesh_dim == 2 || type.name.starts_with('S')))
+      return &type;
+  return nullptr;
 }
 
 }  // namespace
@@ -101,11 +148,12 @@ class AbaqusWriter {
     const Topology& topology = mesh_.topology();
     const int dim = mesh_.dimension();
     std::size_t first = 1;
-    write_elements(dim, topology.cells(), labels_.cell_tags,
+    const MidsideNodes* midside = topology.midside();
+    write_elements(dim, topology.cells(), midside ? &midside->of_cells : nullptr, labels_.cell_tags,
                    [&](std::size_t c) { return cell_label(c); });
     for (std::size_t c = 0; c < topology.n_cells(); ++c) first = std::max(first, cell_label(c) + 1);
-    write_elements(dim - 1, labels_.facets, labels_.facet_tags,
-                   [&](std::size_t f) { return first + f; });
+    write_elements(dim - 1, labels_.facets, midside ? &midside->of_facets : nullptr,
+                   labels_.facet_tags, [&](std::size_t f) { return first + f; });
     if (const FileContent* content = mesh_.content()) {
       write_further_sets(dim, content->cell_entities, [&](std::size_t c) { return cell_label(c); });
       write_further_sets(dim - 1, content->facet_entities,
@@ -138,25 +186,43 @@ class AbaqusWriter {
 
   /// One block for each type and tag; the labels define the order.
   template <class LabelOf>
-  void write_elements(int dim, const CompressedRows<NodeIndex>& rows, const std::vector<int>& tags,
+  void write_elements(int dim, const CompressedRows<NodeIndex>& rows,
+                      const CompressedRows<NodeIndex>* midside, const std::vector<int>& tags,
                       const LabelOf& label_of) {
-    std::map<std::pair<std::size_t, int>, std::vector<std::size_t>> blocks;
+    using Key = std::tuple<std::size_t, std::size_t, int>;  // corners, other nodes, tag
+    std::map<Key, std::vector<std::size_t>> blocks;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      blocks[{rows[i].size(), tags.empty() ? 0 : tags[i]}].push_back(i);
+      blocks[{rows[i].size(), midside ? (*midside)[i].size() : 0, tags.empty() ? 0 : tags[i]}]
+          .push_back(i);
     for (const auto& [key, members] : blocks) {
-      const auto& [n_nodes, tag] = key;
-      text_ += "*ELEMENT, TYPE=" + type_name(mesh_.dimension(), dim, n_nodes);
+      const auto& [n_corners, n_midside, tag] = key;
+      const NamedElement* type = type_of(mesh_.dimension(), dim, n_corners, n_midside);
+      if (!type)
+        throw InputError("Abaqus has no " + std::string(name_of(element_type(dim, n_corners))) +
+                         " with " + std::to_string(n_corners + n_midside) +
+                         " nodes; use .msh instead");
+      text_.append("*ELEMENT, TYPE=").append(type->name);
       if (tag != 0) text_ += ", ELSET=" + set_name({dim, tag}, labels_.names);
       text_ += '\n';
-      for (const std::size_t i : members) {
-        append_number(text_, label_of(i));
-        for (const NodeIndex node : rows[i]) {
-          text_ += ", ";
-          append_number(text_, node_label(node));
-        }
-        text_ += '\n';
-      }
+      for (const std::size_t i : members)
+        write_element(label_of(i), type->element, rows[i],
+                      midside ? (*midside)[i] : std::span<const NodeIndex>());
     }
+  }
+
+  /// Abaqus reads at most 16 numbers a line; a line that ends with a comma continues.
+  void write_element(std::size_t label, const AbaqusElement& element,
+                     std::span<const NodeIndex> corners, std::span<const NodeIndex> midside) {
+    std::vector<NodeIndex> row(corners.begin(), corners.end());
+    row.insert(row.end(), midside.begin(), midside.end());
+    if (element.order) element.order->to_file(row);
+    if (element.order == &line_3) std::swap(row[1], row[2]);
+    append_number(text_, label);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      text_ += k == numbers_a_line - 1 ? ",\n" : ", ";
+      append_number(text_, node_label(row[k]));
+    }
+    text_ += '\n';
   }
 
   /// Writes the sets of elements in several groups, but for the first one.
@@ -174,19 +240,22 @@ class AbaqusWriter {
   void write_fixed() {
     std::vector<std::size_t> labels;
     for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i)
-      if (mesh_.topology().is_fixed(i)) labels.push_back(node_label(i));
+      if (const auto reasons = mesh_.topology().fixed_reasons(i);
+          reasons != 0 && !has(reasons, FixedReason::midside))
+        labels.push_back(node_label(i));
     write_set("*NSET, NSET=" + std::string(abaqus_fixed_set), labels);
   }
 
   void write_set(const std::string& keyword, const std::vector<std::size_t>& labels) {
-    constexpr std::size_t n_a_line = 16;  // as many as Abaqus reads
     text_ += keyword;
     for (std::size_t k = 0; k < labels.size(); ++k) {
-      text_ += k % n_a_line == 0 ? "\n" : ", ";
+      text_ += k % numbers_a_line == 0 ? "\n" : ", ";
       append_number(text_, labels[k]);
     }
     text_ += '\n';
   }
+
+  static constexpr std::size_t numbers_a_line = 16;  // as many as Abaqus reads
 
   const MeshView& mesh_;
   const MeshLabels& labels_;

@@ -31,12 +31,12 @@ inline std::vector<MshEntity> msh_entities(const MeshView& mesh, const AllElemen
   std::map<Key, MshEntity> found;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const int dimension = elements.dimension(e), entity = elements.entity(e);
-    const MshElementType* type = msh_element_type(dimension, elements.nodes(e).size());
-    if (!type) continue;
+    const MshType type = msh_type(dimension, elements.nodes(e).size(), elements.midside(e).size());
+    if (type.number == 0) continue;
     auto groups = groups_of(content, dimension, entity, elements.tag(e));
     const Key key(dimension, entity, groups);
     found.try_emplace(key, MshEntity{dimension, 0, std::move(groups)})
-        .first->second.by_type[type->number]
+        .first->second.by_type[type.number]
         .push_back(e);
   }
   std::set<std::pair<int, int>> used;

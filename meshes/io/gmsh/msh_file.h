@@ -19,7 +19,7 @@ namespace smoothfem {
 ///
 /// Throws InputError "path:line: message" ("path: at byte N: ..." for binary files). Causes: other
 /// versions, incomplete files, nodes or elements with equal tags, coordinates that are not finite,
-/// and elements with nodes other than their corners.
+/// and elements of an order above 2.
 MeshParts read_msh(const std::filesystem::path& path, const MeshReadOptions& = {});
 
 /// Writes a Gmsh file. Version and encoding follow the options; text has enough digits to keep

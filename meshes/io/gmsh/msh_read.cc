@@ -69,7 +69,6 @@ void join_repeated_elements(MeshParts& parts) {
         used.insert(number->second);
       }
       if (is_new) entities[{dimension, number->second}].groups = of_element;
-      joined.nodes.append(elements.nodes[e]);
       joined.tags.push_back(elements.tags[e]);
       joined.ids.push_back(elements.ids[e]);
       joined.entities.push_back(number->second);
@@ -77,6 +76,9 @@ void join_repeated_elements(MeshParts& parts) {
       if (!elements.file_positions.empty())
         joined.file_positions.push_back(elements.file_positions[e]);
     }
+    auto [nodes, midside] = selected_nodes(elements, kept);
+    joined.nodes = std::move(nodes);
+    joined.midside = std::move(midside);
     elements = std::move(joined);
   }
 }
@@ -234,13 +236,12 @@ class MshReader {
       nodes_.read_4_1(in_);
   }
 
-  const MshElementType& known_type(int number) const {
-    if (const auto* type = msh_element_type(number)) return *type;
+  MshType known_type(int number) const {
+    if (const MshType type = msh_type(number); type.number != 0) return type;
     in_.refuse(
         "the mesh has elements of Gmsh's type " + std::to_string(number) +
-        ", but only points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms "
-        "and pyramids without nodes other than their corners can be read; save it with element "
-        "order 1");
+        ", but only points and lines, triangles, quadrilaterals, tetrahedra, hexahedra, "
+        "prisms and pyramids of order 1 or 2 can be read; save it with element order 1 or 2");
   }
 
   void read_elements_1() {
@@ -248,7 +249,7 @@ class MshReader {
     for (std::uint64_t i = 0; i < n_elements; ++i) {
       in_.begin("element", i, n_elements);
       const std::uint64_t tag = in_.tag("the element's tag");
-      const MshElementType& type = known_type(in_.integer("element"));
+      const MshType& type = known_type(in_.integer("element"));
       const int group = in_.integer("element"), entity = in_.integer("element");
       if (in_.count("the number of nodes") != type.n_nodes)
         in_.fail("element " + std::to_string(tag) + " has another number of nodes than its type");
@@ -261,7 +262,7 @@ class MshReader {
     for (std::uint64_t i = 0; i < n_elements;) {
       in_.begin("element", i, n_elements);
       if constexpr (std::is_same_v<Input, MshBinaryInput>) {
-        const MshElementType& type = known_type(in_.integer("element"));
+        const MshType& type = known_type(in_.integer("element"));
         const std::uint64_t n = in_.count("the number of elements of a type");
         const std::uint64_t n_tags = in_.count("the number of the element's tags");
         if (n < 1 || n > n_elements - i) in_.fail("a block of elements has a wrong count");
@@ -269,14 +270,14 @@ class MshReader {
           add_element_2(in_.tag("the element's tag"), type, n_tags);
       } else {
         const std::uint64_t tag = in_.tag("the element's tag");
-        const MshElementType& type = known_type(in_.integer("element"));
+        const MshType& type = known_type(in_.integer("element"));
         add_element_2(tag, type, in_.count("the number of the element's tags"));
         ++i;
       }
     }
   }
 
-  void add_element_2(std::uint64_t tag, const MshElementType& type, std::uint64_t n_tags) {
+  void add_element_2(std::uint64_t tag, const MshType& type, std::uint64_t n_tags) {
     in_.require_bytes(n_tags, sizeof(std::int32_t));
     int group = 0, entity = 0;
     for (std::uint64_t k = 0; k < n_tags; ++k) {
@@ -297,7 +298,7 @@ class MshReader {
     for (std::uint64_t b = 0; b < n_blocks; ++b) {
       in_.begin("element block", b, n_blocks);
       const auto [dimension, entity] = msh_entity_of_block(in_, version);
-      const MshElementType& type = known_type(in_.integer("block"));
+      const MshType& type = known_type(in_.integer("block"));
       if (dimension != type.dimension)
         in_.fail("the block's entity has dimension " + std::to_string(dimension) +
                  ", its elements have " + std::to_string(type.dimension));
@@ -313,8 +314,8 @@ class MshReader {
     msh_require_total(in_, "elements", n_found, n_elements);
   }
 
-  void add_element(std::uint64_t tag, const MshElementType& type, int group, int entity) {
-    std::array<NodeIndex, 8> nodes{};
+  void add_element(std::uint64_t tag, const MshType& type, int group, int entity) {
+    std::array<NodeIndex, 27> nodes{};
     for (std::size_t k = 0; k < type.n_nodes; ++k) {
       if (!in_.has_value())
         in_.fail("element " + std::to_string(tag) + " has " + std::to_string(k) +
@@ -329,7 +330,9 @@ class MshReader {
     }
     in_.end();
     ElementList& elements = parts_.elements[static_cast<std::size_t>(type.dimension)];
-    elements.nodes.append(std::span(nodes).first(type.n_nodes));
+    const std::span row(nodes.data(), type.n_nodes);
+    if (type.order) type.order->from_file(row);
+    elements.append_nodes(row, type.n_corners);
     elements.tags.push_back(group);
     elements.ids.push_back(tag);
     elements.entities.push_back(entity);
@@ -343,9 +346,9 @@ class MshReader {
         in_.fail_at(elements.lines[order[i]],
                     "the element tag " + std::to_string(elements.ids[order[i]]) + " appears twice");
     if (!std::is_sorted(elements.ids.begin(), elements.ids.end())) {
-      CompressedRows<NodeIndex> nodes;
-      for (const std::size_t e : order) nodes.append(elements.nodes[e]);
+      auto [nodes, midside] = selected_nodes(elements, order);
       elements.nodes = std::move(nodes);
+      elements.midside = std::move(midside);
       elements.tags = in_order(elements.tags, order);
       elements.entities = in_order(elements.entities, order);
       elements.ids = in_order(elements.ids, order);
@@ -459,6 +462,7 @@ const RegisteredFormat gmsh_format(
      .holds_planar_meshes = true,
      .holds_volume_meshes = true,
      .holds_surface_meshes = true,
+     .holds_second_order = true,
      .holds_facets = true,
      .holds_physical_names = true,
      .holds_numbers = true,

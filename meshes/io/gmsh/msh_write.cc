@@ -207,21 +207,21 @@ class MshWriter {
       further_rows_.push_back(row);
       return row->id;
     };
-    for (const MshElementType& type : msh_element_types)
+    for (const int number : msh_type_numbers())
       for (const MshEntity& entity : entities_) {
-        const auto elements = entity.by_type.find(type.number);
+        const auto elements = entity.by_type.find(number);
         if (elements == entity.by_type.end()) continue;
         const auto groups = entity.groups.empty() ? std::vector{0} : entity.groups;
         for (const std::size_t e : elements->second)
           for (const int group : groups)
-            write_element_2(entity, type, e, group,
+            write_element_2(entity, msh_type(number), e, group,
                             group == groups.front() ? element_number(e) : number_of(e, group));
       }
     end_section("Elements");
   }
 
-  void write_element_2(const MshEntity& entity, const MshElementType& type, std::size_t e,
-                       int group, std::size_t tag) {
+  void write_element_2(const MshEntity& entity, const MshType& type, std::size_t e, int group,
+                       std::size_t tag) {
     constexpr std::int32_t n_tags = 2;  // physical group and entity
     const auto number = static_cast<std::int32_t>(tag);
     const auto head = out_.is_binary() ? std::array<std::int32_t, 4>{type.number, 1, n_tags, number}
@@ -229,7 +229,7 @@ class MshWriter {
     for (std::size_t k = 0; k < (out_.is_binary() ? 4 : 3); ++k) out_.number(head[k]);
     out_.number(static_cast<std::int32_t>(group));
     out_.number(static_cast<std::int32_t>(entity.number));
-    for (const NodeIndex node : elements_.nodes(e))
+    for (const NodeIndex node : elements_.row(e, type.order))
       out_.number(static_cast<std::int32_t>(node_number(node)));
     out_.end_record();
   }
@@ -288,7 +288,7 @@ class MshWriter {
     Point<3> low = Point<3>::Constant(infinity), high = -low;
     for (const auto& [type, elements] : entity.by_type)
       for (const std::size_t e : elements)
-        for (const NodeIndex node : elements_.nodes(e)) {
+        for (const NodeIndex node : elements_.row(e)) {
           const Point<3> point = mesh_.point(node);
           low = low.cwiseMin(point);
           high = high.cwiseMax(point);
@@ -363,7 +363,8 @@ class MshWriter {
         out_.end_record();
         for (const std::size_t e : elements) {
           out_.number(element_number(e));
-          for (const NodeIndex node : elements_.nodes(e)) out_.number(node_number(node));
+          for (const NodeIndex node : elements_.row(e, msh_type(type).order))
+            out_.number(node_number(node));
           out_.end_record(true);
         }
       }

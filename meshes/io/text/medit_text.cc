@@ -18,6 +18,7 @@
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
+#include "meshes/io/node_order.h"
 #include "meshes/io/text/medit_solution.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
@@ -31,16 +32,27 @@ namespace {
 constexpr std::string_view medit_title = "MeshVersionFormatted",
                            medit_reference_field = "reference";
 
-/// The sections with elements, in the order in which they are written.
+/// The sections with elements, in the order in which they are written. Elements of second order
+/// list their corners and then the nodes of edges, as VTK does.
 struct Section {
   std::string_view keyword;
   int dimension;
-  std::size_t n_nodes;
+  std::size_t n_corners;
+  const NodeOrder* order = nullptr;  ///< null: linear elements
+
+  std::size_t n_nodes() const { return order ? order->size : n_corners; }
 };
-constexpr std::array sections{Section{"Tetrahedra", 3, 4}, Section{"Hexahedra", 3, 8},
-                              Section{"Prisms", 3, 6},     Section{"Pyramids", 3, 5},
-                              Section{"Triangles", 2, 3},  Section{"Quadrilaterals", 2, 4},
-                              Section{"Edges", 1, 2}};
+constexpr std::array sections{Section{"Tetrahedra", 3, 4},
+                              Section{"Hexahedra", 3, 8},
+                              Section{"Prisms", 3, 6},
+                              Section{"Pyramids", 3, 5},
+                              Section{"TetrahedraP2", 3, 4, &tetrahedron_10},
+                              Section{"Triangles", 2, 3},
+                              Section{"Quadrilaterals", 2, 4},
+                              Section{"TrianglesP2", 2, 3, &triangle_6},
+                              Section{"QuadrilateralsQ2", 2, 4, &quadrilateral_9},
+                              Section{"Edges", 1, 2},
+                              Section{"EdgesP2", 1, 2, &line_3}};
 
 /// The numbers of a skipped section; the number of words in an entry is unknown.
 class SkippedSection {
@@ -122,10 +134,14 @@ class MeditReader {
       read_marks(keyword, marks_[{ridge_field, "Edges"}]);
     } else if (keyword.starts_with("Required") && find_section(keyword.substr(8))) {
       read_marks(keyword, marks_[{required_field, std::string(keyword.substr(8))}]);
-    } else if (keyword.ends_with("P2") || keyword.ends_with("Q2")) {
+    } else if (keyword.ends_with("P2") || keyword.ends_with("Q2") || keyword.ends_with("P3") ||
+               keyword.ends_with("Q3") || keyword.ends_with("P4") || keyword.ends_with("Q4")) {
       reader_.fail("the section " + std::string(keyword) +
-                   " has elements with nodes other than their corners; save the mesh with linear "
-                   "elements");
+                   " cannot be read; of elements of second order only EdgesP2, TrianglesP2, "
+                   "QuadrilateralsQ2 and TetrahedraP2 are; save the mesh as .msh");
+    } else if (keyword.ends_with("Ordering")) {
+      reader_.fail("the section " + std::string(keyword) +
+                   " gives nodes an order of its own; save the mesh without it");
     } else {
       skipped_.emplace();
       parts_.notes.push_back("the section " + std::string(keyword) + " is left out");
@@ -196,14 +212,16 @@ class MeditReader {
     const std::size_t n = count(section.keyword);
     require_vertices(section.keyword);
     ElementList& elements = parts_.elements[section.dimension];
-    std::array<NodeIndex, 8> nodes{};
+    std::array<NodeIndex, 27> nodes{};
     positions_[std::string(section.keyword)] = {n_elements_, n};
     for (std::size_t e = 0; e < n; ++e) {
-      for (std::size_t k = 0; k < section.n_nodes; ++k) {
+      for (std::size_t k = 0; k < section.n_nodes(); ++k) {
         nodes[k] = node();
         if (k == 0) elements.lines.push_back(reader_.line());
       }
-      elements.nodes.append(std::span(nodes).first(section.n_nodes));
+      const std::span row(nodes.data(), section.n_nodes());
+      if (section.order) section.order->from_file(row);
+      elements.append_nodes(row, section.n_corners);
       elements.tags.push_back(reference());
       elements.file_positions.push_back(n_elements_++);
     }
@@ -417,17 +435,20 @@ class MeditWriter {
     std::vector<std::uint32_t> members;
     for (const std::uint32_t e : order_)
       if (elements_.dimension(e) == section.dimension &&
-          elements_.nodes(e).size() == section.n_nodes)
+          elements_.nodes(e).size() == section.n_corners &&
+          elements_.nodes(e).size() + elements_.midside(e).size() == section.n_nodes())
         members.push_back(e);
     std::size_t n = members.size();
     const bool has_more = section.dimension == mesh_.dimension() - 1;
     for (std::size_t f = 0; has_more && f < more_facets_.size(); ++f)
-      n += more_facets_[f].size() == section.n_nodes;
+      n += !section.order && more_facets_[f].size() == section.n_corners;
     if (n == 0) return;
     text_.append(section.keyword).append("\n").append(std::to_string(n)).append("\n");
-    for (const std::uint32_t e : members) append_row(elements_.nodes(e), elements_.tag(e));
+    for (const std::uint32_t e : members)
+      append_row(elements_.row(e, section.order), elements_.tag(e));
     for (std::size_t f = 0; has_more && f < more_facets_.size(); ++f)
-      if (more_facets_[f].size() == section.n_nodes) append_row(more_facets_[f], 0);
+      if (!section.order && more_facets_[f].size() == section.n_corners)
+        append_row(more_facets_[f], 0);
     members_[std::string(section.keyword)] = std::move(members);
   }
 
@@ -474,7 +495,8 @@ class MeditWriter {
     const MeshField* is_corner = field(true, corner_field);
     const MeshField* is_marked = field(true, required_field);
     for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
-      const FixedReasons reasons = topology.fixed_reasons(i);
+      const FixedReasons reasons =
+          topology.fixed_reasons(i) & static_cast<FixedReasons>(~bit(FixedReason::midside));
       const bool is_required = is_marked && is_marked->number(i) != 0.0;
       if (is_required || (is_of_medit_ ? has(reasons, FixedReason::marked) : reasons != 0))
         required.push_back(std::size_t{i} + 1);
@@ -509,11 +531,28 @@ class MeditWriter {
   std::string text_;
 };
 
+/// Throws InputError for elements of second order without a section.
+void require_sections(const std::filesystem::path& path, const MeshView& mesh) {
+  const AllElements elements(mesh);
+  for (std::size_t e = 0; mesh.topology().midside() && e < elements.size(); ++e) {
+    const std::size_t n_corners = elements.nodes(e).size(), n_midside = elements.midside(e).size();
+    const auto fits = [&](const Section& section) {
+      return section.dimension == elements.dimension(e) && section.n_corners == n_corners &&
+             section.n_nodes() == n_corners + n_midside;
+    };
+    if (n_midside > 0 && std::none_of(sections.begin(), sections.end(), fits))
+      throw InputError("cannot write " + path.string() + ": Medit's format has no section for a " +
+                       std::string(name_of(element_type(elements.dimension(e), n_corners))) +
+                       " with " + std::to_string(n_corners + n_midside) + " nodes; use .msh");
+  }
+}
+
 }  // namespace
 
 void write_medit_text(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                       const MeshWriteOptions&) {
   require_no_polygons(path, mesh);
+  require_sections(path, mesh);
   const CompressedRows<NodeIndex> no_facets;
   MeditWriter writer(mesh, no_facets);
   write_atomically(path, writer.text());
@@ -546,6 +585,7 @@ const RegisteredFormat medit(
      .description = "Medit, text; written for planar meshes that have labels",
      .holds_planar_meshes = true,
      .holds_volume_meshes = true,
+     .holds_second_order = true,
      .adds_fixed_nodes = true,
      .holds_facets = true,
      .min_element_dimension = 1,

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <sstream>
@@ -16,6 +17,7 @@
 
 #include "meshes/io/line_reader.h"
 #include "meshes/io/node_order.h"
+#include "meshes/io/vtk/vtk_second_order.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
 
@@ -80,10 +82,17 @@ std::optional<CellKind> kind_of(int vtk_type) {
   }
 }
 
-/// Returns the dimension of the cells of a known type; -1 if they are left out.
-int dimension_of_kind(int vtk_type) {
-  const auto kind = kind_of(vtk_type);
-  return kind->dimension == 0 && kind->n_nodes == 0 ? -1 : kind->dimension;
+/// Returns the linear kind of cells of any order that have their corners only.
+std::optional<CellKind> linear_kind_of(int vtk_type, std::size_t n_nodes) {
+  const SecondOrderType* type = find_type(vtk_second_order_types, vtk_type);
+  if (vtk_type < VTK_LAGRANGE_CURVE || !type || type->n_corners != n_nodes) return std::nullopt;
+  return CellKind{type->dimension, type->n_corners};
+}
+
+bool is_wedge(int vtk_type) {
+  constexpr std::array wedges{VTK_WEDGE, VTK_QUADRATIC_WEDGE, VTK_BIQUADRATIC_QUADRATIC_WEDGE,
+                              VTK_LAGRANGE_WEDGE};
+  return std::find(wedges.begin(), wedges.end(), vtk_type) != wedges.end();
 }
 
 /// Approximately six times a prism's volume; only its sign is used.
@@ -118,7 +127,8 @@ class GridParts {
            std::to_string(cells_.types.size()) + " cell types; it is truncated or damaged");
     std::array<std::size_t, 4> n_cells{};
     for (std::size_t c = 0; c < cells_.size(); ++c) ++n_cells[check_cell(c)];
-    choose_wedge_order();
+    choose_wedge_orders();
+    choose_hexahedron_order();
     read_point_arrays();
     read_names();
     divide(n_cells);
@@ -145,25 +155,31 @@ class GridParts {
         .subspan(cells_.offsets[cell], cells_.offsets[cell + 1] - cells_.offsets[cell]);
   }
 
-  [[noreturn]] void refuse_type(std::size_t cell, int type) const {
+  [[noreturn]] void refuse_type(std::size_t cell, int type) {
     const std::string name = vtkCellTypes::GetClassNameFromTypeId(type);
     const bool curved = name.find("Quadratic") != name.npos || name.find("Order") != name.npos ||
                         name.find("Lagrange") != name.npos || name.find("Bezier") != name.npos;
     fail("cell " + std::to_string(cell) + " has the VTK type " + std::to_string(type) + " (" +
-         name + "); " +
-         (curved ? "cells with nodes other than their corners cannot be read: save the mesh with "
-                   "linear cells"
+         name + ") with " + std::to_string(nodes_of(cell).size()) + " nodes; " +
+         (curved ? "cells of this type or order cannot be read: save the mesh with linear or "
+                   "quadratic cells"
                  : "only triangles, quadrilaterals, polygons, tetrahedra, pyramids, wedges and "
                    "hexahedra can be read"));
   }
 
-  /// Changes the nodes to the order of volume_elements.h, except for wedges. Returns the cell's
-  /// dimension, also 0 for cells that are left out.
+  /// Changes the nodes to the order of midside_nodes.h, except for the corners of wedges. Returns
+  /// the cell's dimension, also 0 for cells that are left out.
   std::size_t check_cell(std::size_t cell) {
     const int type = cells_.types[cell];
-    const auto kind = kind_of(type);
-    if (!kind) refuse_type(cell, type);
     const auto nodes = nodes_of(cell);
+    if (const SecondOrderType* found = find_type(vtk_second_order_types, type, nodes.size())) {
+      is_second_order_ = true;
+      found->order.from_file(nodes);
+      return static_cast<std::size_t>(found->dimension);
+    }
+    auto kind = kind_of(type);
+    if (!kind) kind = linear_kind_of(type, nodes.size());
+    if (!kind) refuse_type(cell, type);
     if (kind->n_nodes != 0 && nodes.size() != kind->n_nodes)
       fail("cell " + std::to_string(cell) + " has " + std::to_string(nodes.size()) +
            " nodes, but its type has " + std::to_string(kind->n_nodes));
@@ -172,18 +188,53 @@ class GridParts {
     return static_cast<std::size_t>(kind->dimension);
   }
 
-  /// Chooses the order of wedges. The rows still have the file's order, which is Gmsh's unless
-  /// VTK's fits as well or better.
-  void choose_wedge_order() {
-    std::size_t n_wedges = 0, n_positive = 0;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      if (cells_.types[c] != VTK_WEDGE) continue;
-      ++n_wedges;
-      n_positive += signed_prism_volume(grid_.points, nodes_of(c)) > 0.0;
-    }
-    if (n_wedges == 0 || 2 * n_positive > n_wedges) return;
+  /// Returns the number of a cell's corners.
+  std::size_t n_corners_of(std::size_t cell) {
+    const auto* type = find_type(vtk_second_order_types, cells_.types[cell], nodes_of(cell).size());
+    return type ? type->n_corners : nodes_of(cell).size();
+  }
+
+  /// Returns the dimension of a cell; -1 if it is left out.
+  int dimension_of_cell(std::size_t cell) {
+    const int type = cells_.types[cell];
+    if (const SecondOrderType* found = find_type(vtk_second_order_types, type))
+      return found->dimension;
+    const auto kind = kind_of(type);
+    return kind->dimension == 0 && kind->n_nodes == 0 ? -1 : kind->dimension;
+  }
+
+  /// Chooses the order of wedges, for each of VTK's types: that of Gmsh unless the one of VTK fits
+  /// as well or better.
+  void choose_wedge_orders() {
+    std::map<int, std::ptrdiff_t> votes;  // for Gmsh's order
     for (std::size_t c = 0; c < cells_.size(); ++c)
-      if (cells_.types[c] == VTK_WEDGE) permute(nodes_of(c), vtk_wedge);
+      if (is_wedge(cells_.types[c]))
+        votes[cells_.types[c]] += signed_prism_volume(grid_.points, nodes_of(c)) > 0.0 ? 1 : -1;
+    for (std::size_t c = 0; c < cells_.size() && !votes.empty(); ++c)
+      if (is_wedge(cells_.types[c]) && votes[cells_.types[c]] <= 0) {
+        const auto midside = reordered_midside(3, nodes_of(c).subspan(6), vtk_wedge);
+        permute(nodes_of(c).first(6), vtk_wedge);
+        std::ranges::copy(midside, nodes_of(c).begin() + 6);
+      }
+  }
+
+  /// Chooses the order of two edges of Lagrange hexahedra: each node belongs to the edge whose
+  /// middle is nearer.
+  void choose_hexahedron_order() {
+    double excess = 0.0;  // of distances in the present order
+    const auto is_concerned = [&](std::size_t c) {
+      return cells_.types[c] == VTK_LAGRANGE_HEXAHEDRON && nodes_of(c).size() > 8;
+    };
+    const auto [p, q] = vtk_swapped_edges;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (!is_concerned(c)) continue;
+      const auto x = [&](std::size_t k) { return grid_.points[nodes_of(c)[k]]; };
+      const Point<3> of_p = 0.5 * (x(2) + x(6)), of_q = 0.5 * (x(3) + x(7));
+      excess +=
+          (x(p) - of_p).norm() + (x(q) - of_q).norm() - (x(p) - of_q).norm() - (x(q) - of_p).norm();
+    }
+    for (std::size_t c = 0; c < cells_.size() && excess > 0.0; ++c)
+      if (is_concerned(c)) std::swap(nodes_of(c)[p], nodes_of(c)[q]);
   }
 
   static auto find(std::vector<MeshField>& fields, std::string_view name) {
@@ -229,6 +280,11 @@ class GridParts {
       parts_.notes.emplace_back("the polygonal data become an unstructured grid");
     if (has(VTK_PIXEL)) parts_.notes.emplace_back("pixels become quadrilaterals");
     if (has(VTK_VOXEL)) parts_.notes.emplace_back("voxels become hexahedra");
+    if (std::any_of(cells_.types.begin(), cells_.types.end(), [](int type) {
+          return type >= VTK_LAGRANGE_CURVE && type <= VTK_LAGRANGE_PYRAMID;
+        }))
+      parts_.notes.emplace_back(
+          "Lagrange cells become linear or quadratic cells of the same nodes");
   }
 
   void read_names() {
@@ -278,15 +334,16 @@ class GridParts {
     const auto ids = take(grid_.cell_fields, "cell_id");
     const MeshField *of_cells = tags(), *of_boundary = boundary_tags();
     const int top = n_cells[3] > 0 ? 3 : 2;
-    const auto* only = std::find(n_cells.begin() + 1, n_cells.end(), n);
+    const auto* only =
+        is_second_order_ ? n_cells.end() : std::find(n_cells.begin() + 1, n_cells.end(), n);
     for (std::size_t c = 0; c < n; ++c) {
-      const int dimension = dimension_of_kind(cells_.types[c]);
+      const int dimension = dimension_of_cell(c);
       if (dimension < 0) {
         ++n_left_out_;
         continue;
       }
       ElementList& elements = parts_.elements[static_cast<std::size_t>(dimension)];
-      if (only == n_cells.end()) elements.nodes.append(nodes_of(c));
+      if (only == n_cells.end()) elements.append_nodes(nodes_of(c), n_corners_of(c));
       const MeshField* field = of_boundary && dimension < top ? of_boundary : of_cells;
       if (field) elements.tags.push_back(tag_of(field->number(c * field->n_components)));
       if (ids) elements.ids.push_back(id_of(ids->number(c * ids->n_components)));
@@ -310,6 +367,7 @@ class GridParts {
   VtkCells& cells_;
   MeshParts parts_;
   std::size_t n_left_out_ = 0;
+  bool is_second_order_ = false;
 };
 
 }  // namespace

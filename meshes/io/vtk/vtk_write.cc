@@ -32,6 +32,7 @@
 #include "meshes/io/vtk/vtk_files.h"
 #include "meshes/io/vtk/vtk_legacy_text.h"
 #include "meshes/io/vtk/vtk_messages.h"
+#include "meshes/io/vtk/vtk_second_order.h"
 #include "meshes/io/vtk/xml_tags.h"
 #include "smoothing/base/input_error.h"
 
@@ -78,7 +79,7 @@ void set_points(const MeshView& mesh, vtkUnstructuredGrid& grid) {
 }
 
 void insert_cell(vtkUnstructuredGrid& grid, int type, std::span<const NodeIndex> nodes) {
-  std::array<vtkIdType, 8> few;
+  std::array<vtkIdType, 27> few;
   std::vector<vtkIdType> many;
   vtkIdType* row = few.data();
   if (nodes.size() > few.size()) {
@@ -101,11 +102,23 @@ int vtk_type_of(int dimension, std::size_t n_nodes) {
 void set_cells(const AllElements& elements, const std::vector<std::uint32_t>& order,
                vtkUnstructuredGrid& grid) {
   std::size_t n_entries = 0;
-  for (std::size_t e = 0; e < elements.size(); ++e) n_entries += elements.nodes(e).size();
+  for (std::size_t e = 0; e < elements.size(); ++e) n_entries += elements.row(e).size();
   grid.AllocateExact(static_cast<vtkIdType>(elements.size()), static_cast<vtkIdType>(n_entries));
-  for (const std::uint32_t e : order)
-    insert_cell(grid, vtk_type_of(elements.dimension(e), elements.nodes(e).size()),
-                elements.nodes(e));
+  for (const std::uint32_t e : order) {
+    const auto corners = elements.nodes(e), midside = elements.midside(e);
+    const int dimension = elements.dimension(e);
+    const SecondOrderType* type = midside.empty() ? nullptr
+                                                  : find_type(vtk_second_order_types, dimension,
+                                                              corners.size(), midside.size());
+    if (type)
+      insert_cell(grid, type->number, elements.row(e, &type->order));
+    else if (midside.empty())
+      insert_cell(grid, vtk_type_of(dimension, corners.size()), corners);
+    else
+      throw InputError(
+          "VTK has no " + std::string(name_of(element_type(dimension, corners.size()))) + " with " +
+          std::to_string(corners.size() + midside.size()) + " nodes; use .msh instead");
+  }
 }
 
 /// Returns the first cell that has all nodes of a facet; n_cells if there is no such cell.
@@ -237,7 +250,9 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFie
   set_points(mesh, *grid);
   set_cells(elements, order, *grid);
   std::vector<int> fixed(mesh.n_nodes());
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) fixed[i] = topology.is_fixed(i) ? 1 : 0;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    fixed[i] =
+        topology.is_fixed(i) && !has(topology.fixed_reasons(i), FixedReason::midside) ? 1 : 0;
   add_array<vtkIntArray>(*grid->GetPointData(), "fixed", fixed);
   add_labels(mesh, elements, order, *grid);
   if (mesh.content()) add_content(*mesh.content(), fields, order, *grid);
