@@ -11,6 +11,7 @@
 #include <string>
 
 #include "meshes/doctor/repair.h"
+#include "meshes/io/all_elements.h"
 #include "meshes/io/plane_of_points.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
@@ -322,6 +323,23 @@ void require_no_polygons(const std::filesystem::path& path, const MeshView& mesh
                      std::to_string(topology.cell_nodes(c).size()) + " nodes, and " +
                      path.extension().string() +
                      " files hold only triangles and quadrilaterals; use one of " + joined(others));
+  }
+}
+
+void require_held(const std::filesystem::path& path, const MeshView& mesh,
+                  const std::string& program, const std::string& instead,
+                  const std::function<bool(int, std::size_t, std::size_t)>& holds) {
+  if (!mesh.topology().midside()) return;
+  const AllElements elements(mesh);
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const std::size_t n_corners = elements.nodes(e).size(), n_midside = elements.midside(e).size();
+    if (n_midside == 0 || holds(elements.dimension(e), n_corners, n_midside)) continue;
+    const std::string shape =
+        elements.dimension(e) == 1
+            ? "line"
+            : std::string(name_of(element_type(elements.dimension(e), n_corners)));
+    throw InputError("cannot write " + path.string() + ": " + program + " has no " + shape +
+                     " with " + std::to_string(n_corners + n_midside) + " nodes; use " + instead);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -96,6 +97,13 @@ bool add_physical_name(const std::string& line, MeshParts& parts);
 
 /// Throws InputError if the mesh has a polygon; for writers of formats without polygons.
 void require_no_polygons(const std::filesystem::path& path, const MeshView& mesh);
+
+/// Throws InputError for the first element of second order for which
+/// holds(dimension, n_corners, n_midside) is false. program: whose format it is, for example
+/// "Abaqus". instead: extensions of formats to use.
+void require_held(const std::filesystem::path& path, const MeshView& mesh,
+                  const std::string& program, const std::string& instead,
+                  const std::function<bool(int, std::size_t, std::size_t)>& holds);
 
 /// Gives the nodes new numbers in their order. first[i] is i, or an earlier node that takes the
 /// place of node i, or no_node to remove node i, which then no element may use.

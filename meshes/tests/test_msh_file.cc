@@ -279,10 +279,9 @@ TEST_P(BadMshFile, IsRefusedWithReasonAndNothingOnTheTerminal) {
   EXPECT_THAT(message, HasSubstr(GetParam().message));
 }
 
-const std::string second_order =
-    head_2 +
-    "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 .5 0 0\n5 .5 .5 0\n6 0 .5 0\n$EndNodes\n$Elements\n"
-    "1\n1 9 2 1 1 1 2 3 4 5 6\n$EndElements\n";
+const std::string third_order = head_2 +
+                                "$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n"
+                                "1\n1 21 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Msh, BadMshFile,
@@ -341,9 +340,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadMsh{"element_junk", square("9 0 1 0", "12 2 2 1 1 2 7 x"),
                ":16: the element's line holds 'x'"},
         BadMsh{"same_node_tag_twice", square("7 0 1 0"), ":10: the node tag 7 appears twice"},
-        BadMsh{"second_order", second_order,
-               ":15: the mesh has elements of Gmsh's type 9, but only points, lines, triangles, "},
-        BadMsh{"second_order_advice", second_order, "save it with element order 1"},
+        BadMsh{"third_order", third_order,
+               ":12: the mesh has elements of Gmsh's type 21, but only points and lines, "},
+        BadMsh{"third_order_advice", third_order, "save it with element order 1 or 2"},
         BadMsh{"only_points",
                head_2 + "$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 15 2 0 1 1\n$EndElements\n",
                "the mesh has no cells"},

@@ -197,10 +197,6 @@ class AbaqusWriter {
     for (const auto& [key, members] : blocks) {
       const auto& [n_corners, n_midside, tag] = key;
       const NamedElement* type = type_of(mesh_.dimension(), dim, n_corners, n_midside);
-      if (!type)
-        throw InputError("Abaqus has no " + std::string(name_of(element_type(dim, n_corners))) +
-                         " with " + std::to_string(n_corners + n_midside) +
-                         " nodes; use .msh instead");
       text_.append("*ELEMENT, TYPE=").append(type->name);
       if (tag != 0) text_ += ", ELSET=" + set_name({dim, tag}, labels_.names);
       text_ += '\n';
@@ -339,6 +335,10 @@ class AbaqusRewriter {
 void write_abaqus(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                   const MeshWriteOptions&) {
   require_no_polygons(path, mesh);
+  require_held(path, mesh, "Abaqus", ".msh or .vtu",
+               [&](int dim, std::size_t n_corners, std::size_t n_midside) {
+                 return type_of(mesh.dimension(), dim, n_corners, n_midside) != nullptr;
+               });
   const FileContent* content = mesh.content();
   const bool has_text = content && content->format == "abaqus" && !content->sections.empty();
   write_atomically(path, has_text ? AbaqusRewriter(mesh).text(content->sections.front())

@@ -422,6 +422,10 @@ void require_version_2_holds(const std::filesystem::path& path, const Topology& 
 void write_msh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                const MeshWriteOptions& options) {
   require_no_polygons(path, mesh);
+  require_held(path, mesh, "Gmsh", ".vtu",
+               [](int dimension, std::size_t n_corners, std::size_t n_midside) {
+                 return msh_type(dimension, n_corners, n_midside).number != 0;
+               });
   const FileContent* content = mesh.content();
   const bool is_of_gmsh = content && content->format == "gmsh";
   const std::string version = options.msh_version

@@ -531,20 +531,11 @@ class MeditWriter {
   std::string text_;
 };
 
-/// Throws InputError for elements of second order without a section.
-void require_sections(const std::filesystem::path& path, const MeshView& mesh) {
-  const AllElements elements(mesh);
-  for (std::size_t e = 0; mesh.topology().midside() && e < elements.size(); ++e) {
-    const std::size_t n_corners = elements.nodes(e).size(), n_midside = elements.midside(e).size();
-    const auto fits = [&](const Section& section) {
-      return section.dimension == elements.dimension(e) && section.n_corners == n_corners &&
-             section.n_nodes() == n_corners + n_midside;
-    };
-    if (n_midside > 0 && std::none_of(sections.begin(), sections.end(), fits))
-      throw InputError("cannot write " + path.string() + ": Medit's format has no section for a " +
-                       std::string(name_of(element_type(elements.dimension(e), n_corners))) +
-                       " with " + std::to_string(n_corners + n_midside) + " nodes; use .msh");
-  }
+bool has_section(int dimension, std::size_t n_corners, std::size_t n_midside) {
+  return std::any_of(sections.begin(), sections.end(), [&](const Section& section) {
+    return section.dimension == dimension && section.n_corners == n_corners &&
+           section.n_nodes() == n_corners + n_midside;
+  });
 }
 
 }  // namespace
@@ -552,7 +543,7 @@ void require_sections(const std::filesystem::path& path, const MeshView& mesh) {
 void write_medit_text(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                       const MeshWriteOptions&) {
   require_no_polygons(path, mesh);
-  require_sections(path, mesh);
+  require_held(path, mesh, "Medit", ".msh or .vtu", has_section);
   const CompressedRows<NodeIndex> no_facets;
   MeditWriter writer(mesh, no_facets);
   write_atomically(path, writer.text());

@@ -78,6 +78,10 @@ void set_points(const MeshView& mesh, vtkUnstructuredGrid& grid) {
   grid.SetPoints(points);
 }
 
+const SecondOrderType* vtk_type(int dimension, std::size_t n_corners, std::size_t n_midside) {
+  return find_type(vtk_second_order_types, dimension, n_corners, n_midside);
+}
+
 void insert_cell(vtkUnstructuredGrid& grid, int type, std::span<const NodeIndex> nodes) {
   std::array<vtkIdType, 27> few;
   std::vector<vtkIdType> many;
@@ -107,17 +111,12 @@ void set_cells(const AllElements& elements, const std::vector<std::uint32_t>& or
   for (const std::uint32_t e : order) {
     const auto corners = elements.nodes(e), midside = elements.midside(e);
     const int dimension = elements.dimension(e);
-    const SecondOrderType* type = midside.empty() ? nullptr
-                                                  : find_type(vtk_second_order_types, dimension,
-                                                              corners.size(), midside.size());
+    const SecondOrderType* type =
+        midside.empty() ? nullptr : vtk_type(dimension, corners.size(), midside.size());
     if (type)
       insert_cell(grid, type->number, elements.row(e, &type->order));
-    else if (midside.empty())
-      insert_cell(grid, vtk_type_of(dimension, corners.size()), corners);
     else
-      throw InputError(
-          "VTK has no " + std::string(name_of(element_type(dimension, corners.size()))) + " with " +
-          std::to_string(corners.size() + midside.size()) + " nodes; use .msh instead");
+      insert_cell(grid, vtk_type_of(dimension, corners.size()), corners);
   }
 }
 
@@ -325,9 +324,21 @@ bool writes_binary(const MeshView& mesh, const MeshWriteOptions& options, std::s
 
 }  // namespace
 
+namespace {
+
+void require_vtk_cells(const std::filesystem::path& path, const MeshView& mesh) {
+  require_held(path, mesh, "VTK", ".msh",
+               [](int dimension, std::size_t corners, std::size_t midside) {
+                 return vtk_type(dimension, corners, midside) != nullptr;
+               });
+}
+
+}  // namespace
+
 /// Writes to memory first: VTK does not notice every failed write; write_atomically does.
 void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions& options) {
+  require_vtk_cells(path, mesh);
   if (!writes_binary(mesh, options, "vtk"))
     return write_atomically(path, legacy_vtk_text(*grid_of(mesh, fields, VtkFormat::legacy)));
   vtkNew<vtkUnstructuredGridWriter> writer;
@@ -342,6 +353,7 @@ void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
 
 void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                const MeshWriteOptions& options) {
+  require_vtk_cells(path, mesh);
   vtkNew<StreamingWriter> writer;
   if (writes_binary(mesh, options, "vtu"))
     writer->SetDataModeToBinary();
