@@ -144,7 +144,7 @@ inline constexpr NodeOrder hexahedron_20 = node_order(3, 8,
                                                        {3, 7}});
 
 /// An element of second order in a format.
-struct SecondOrderType {
+struct FormatElement {
   int number;  ///< of the format, for example VTK's
   int dimension;
   std::size_t n_corners;
@@ -153,15 +153,15 @@ struct SecondOrderType {
 
 /// Returns the first type of a number with so many nodes (0: any), or the one of an element; null
 /// if there is none.
-constexpr const SecondOrderType* find_type(std::span<const SecondOrderType> types, int number,
+constexpr const FormatElement* find_type(std::span<const FormatElement> types, int number,
                                            std::size_t n_nodes = 0) {
-  for (const SecondOrderType& type : types)
+  for (const FormatElement& type : types)
     if (type.number == number && (n_nodes == 0 || type.order.size == n_nodes)) return &type;
   return nullptr;
 }
-constexpr const SecondOrderType* find_type(std::span<const SecondOrderType> types, int dimension,
+constexpr const FormatElement* find_type(std::span<const FormatElement> types, int dimension,
                                            std::size_t n_corners, std::size_t n_midside) {
-  for (const SecondOrderType& type : types)
+  for (const FormatElement& type : types)
     if (type.dimension == dimension && type.n_corners == n_corners &&
         type.order.size == n_corners + n_midside)
       return &type;

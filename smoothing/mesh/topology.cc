@@ -268,6 +268,22 @@ std::vector<CellIndex> Topology::cells_around(std::span<const NodeIndex> nodes) 
   return cells;
 }
 
+std::shared_ptr<const Topology> Topology::without_midside() const {
+  std::shared_ptr<Topology> result(new Topology);
+  result->dim_ = dim_;
+  result->cells_ = cells_;
+  result->labels_ = labels_;
+  result->labels_.midside = nullptr;
+  result->boundary_facets_ = boundary_facets_;
+  result->n_facets_ = n_facets_;
+  result->on_boundary_ = on_boundary_;
+  result->fixed_ = fixed_;
+  result->free_nodes_ = free_nodes_;
+  result->cell_has_free_node_ = cell_has_free_node_;
+  result->blocks_ = blocks_;
+  return result;
+}
+
 std::shared_ptr<const Topology> Topology::reordered(
     const std::vector<NodeIndex>& node_order, const std::vector<CellIndex>& cell_order) const {
   std::vector<NodeIndex> new_node(n_nodes());

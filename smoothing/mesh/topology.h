@@ -91,6 +91,9 @@ class Topology {
 
   const MeshLabels& labels() const { return labels_; }
 
+  /// Returns the same mesh without midside nodes: these are then nodes that no cell uses.
+  std::shared_ptr<const Topology> without_midside() const;
+
   /// Returns the same mesh in another order, without labels. Node i and cell c of the result are
   /// node node_order[i] and cell cell_order[c] of this one. Cells keep the order of their nodes.
   std::shared_ptr<const Topology> reordered(const std::vector<NodeIndex>& node_order,

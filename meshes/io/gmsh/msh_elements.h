@@ -43,7 +43,7 @@ inline constexpr NodeOrder msh_hexahedron_20 = node_order(3, 8,
                                                            {6, 7}});
 
 /// Types of second order.
-inline constexpr std::array<SecondOrderType, 11> msh_second_order_types{
+inline constexpr std::array<FormatElement, 11> msh_second_order_types{
     {{8, 1, 2, line_3},
      {9, 2, 3, triangle_6},
      {16, 2, 4, quadrilateral_8},
@@ -68,7 +68,7 @@ struct MshType {
 constexpr MshType msh_type(const MshElementType& type) {
   return {type.number, type.dimension, type.n_corners, type.n_corners, nullptr};
 }
-constexpr MshType msh_type(const SecondOrderType* type) {
+constexpr MshType msh_type(const FormatElement* type) {
   if (!type) return {};
   return {type->number, type->dimension, type->n_corners, type->order.size, &type->order};
 }
@@ -93,7 +93,7 @@ constexpr MshType msh_type(int dimension, std::size_t n_corners, std::size_t n_m
 inline std::vector<int> msh_type_numbers() {
   std::vector<int> numbers;
   for (const MshElementType& type : msh_element_types) numbers.push_back(type.number);
-  for (const SecondOrderType& type : msh_second_order_types) numbers.push_back(type.number);
+  for (const FormatElement& type : msh_second_order_types) numbers.push_back(type.number);
   return numbers;
 }
 

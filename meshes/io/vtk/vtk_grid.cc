@@ -84,7 +84,7 @@ std::optional<CellKind> kind_of(int vtk_type) {
 
 /// Returns the linear kind of cells of any order that have their corners only.
 std::optional<CellKind> linear_kind_of(int vtk_type, std::size_t n_nodes) {
-  const SecondOrderType* type = find_type(vtk_second_order_types, vtk_type);
+  const FormatElement* type = find_type(vtk_second_order_types, vtk_type);
   if (vtk_type < VTK_LAGRANGE_CURVE || !type || type->n_corners != n_nodes) return std::nullopt;
   return CellKind{type->dimension, type->n_corners};
 }
@@ -172,7 +172,7 @@ class GridParts {
   std::size_t check_cell(std::size_t cell) {
     const int type = cells_.types[cell];
     const auto nodes = nodes_of(cell);
-    if (const SecondOrderType* found = find_type(vtk_second_order_types, type, nodes.size())) {
+    if (const FormatElement* found = find_type(vtk_second_order_types, type, nodes.size())) {
       is_second_order_ = true;
       found->order.from_file(nodes);
       return static_cast<std::size_t>(found->dimension);
@@ -197,7 +197,7 @@ class GridParts {
   /// Returns the dimension of a cell; -1 if it is left out.
   int dimension_of_cell(std::size_t cell) {
     const int type = cells_.types[cell];
-    if (const SecondOrderType* found = find_type(vtk_second_order_types, type))
+    if (const FormatElement* found = find_type(vtk_second_order_types, type))
       return found->dimension;
     const auto kind = kind_of(type);
     return kind->dimension == 0 && kind->n_nodes == 0 ? -1 : kind->dimension;

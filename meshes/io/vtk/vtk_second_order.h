@@ -17,7 +17,7 @@ inline constexpr NodeOrder vtk_prism_18 =
 
 /// VTK's cells of second order. The first ones of their kind are written. VTK has no pyramid with
 /// 14 nodes.
-inline constexpr std::array<SecondOrderType, 19> vtk_second_order_types{
+inline constexpr std::array<FormatElement, 19> vtk_second_order_types{
     {{VTK_QUADRATIC_EDGE, 1, 2, line_3},
      {VTK_QUADRATIC_TRIANGLE, 2, 3, triangle_6},
      {VTK_BIQUADRATIC_TRIANGLE, 2, 3, triangle_7},

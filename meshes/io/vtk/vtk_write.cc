@@ -78,7 +78,7 @@ void set_points(const MeshView& mesh, vtkUnstructuredGrid& grid) {
   grid.SetPoints(points);
 }
 
-const SecondOrderType* vtk_type(int dimension, std::size_t n_corners, std::size_t n_midside) {
+const FormatElement* vtk_type(int dimension, std::size_t n_corners, std::size_t n_midside) {
   return find_type(vtk_second_order_types, dimension, n_corners, n_midside);
 }
 
@@ -111,7 +111,7 @@ void set_cells(const AllElements& elements, const std::vector<std::uint32_t>& or
   for (const std::uint32_t e : order) {
     const auto corners = elements.nodes(e), midside = elements.midside(e);
     const int dimension = elements.dimension(e);
-    const SecondOrderType* type =
+    const FormatElement* type =
         midside.empty() ? nullptr : vtk_type(dimension, corners.size(), midside.size());
     if (type)
       insert_cell(grid, type->number, elements.row(e, &type->order));

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "smoothing/second_order/midside_placement.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+
+#include "smoothing/base/parallel.h"
+#include "smoothing/mesh/interfaces.h"
+#include "smoothing/quality/mesh_quality.h"
+#include "smoothing/second_order/curved_quality.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// Weights of the corners, the edges' nodes and the faces' nodes in the straight place of a face's
+/// or a cell's node: transfinite interpolation (Gordon and Hall 1973, doi 10.1007/BF01436298). In a
+/// triangle it is the place that the polynomial of degree 2 gives.
+struct Weights {
+  double corners, edges, faces = 0.0;
+};
+constexpr Weights of_triangle{-1.0 / 9.0, 4.0 / 9.0}, of_quadrilateral{-0.25, 0.5},
+    of_hexahedron{0.125, -0.25, 0.5};
+
+/// Returns the places of the midside nodes of these facets, and of their edges.
+template <int dim>
+std::set<MidsidePlace> places_of_facets(const CompressedRows<NodeIndex>& facets) {
+  std::set<MidsidePlace> places;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const auto nodes = facets[f];
+    std::vector<NodeIndex> sorted(nodes.begin(), nodes.end());
+    std::sort(sorted.begin(), sorted.end());
+    MidsidePlace whole{no_corner, no_corner, no_corner, no_corner};
+    std::copy(sorted.begin(), sorted.end(), whole.begin());
+    places.insert(whole);
+    if (dim == 3)
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const auto [low, high] = std::minmax(nodes[k], nodes[(k + 1) % nodes.size()]);
+        places.insert({low, high, no_corner, no_corner});
+      }
+  }
+  return places;
+}
+
+/// Turns and scales a vector as an edge: from `before` to `after`.
+template <int dim>
+Point<dim> moved_with(const Point<dim>& vector, const Point<dim>& before, const Point<dim>& after) {
+  const double length = before.norm(), scale = after.norm() / length;
+  if (vector.isZero(0.0) || length == 0.0 || scale == 0.0) return Point<dim>::Zero();
+  if constexpr (dim == 2) {
+    const double c = before.dot(after) / (length * length),
+                 s = (before.x() * after.y() - before.y() * after.x()) / (length * length);
+    return {c * vector.x() - s * vector.y(), s * vector.x() + c * vector.y()};
+  } else {
+    return scale * (Eigen::Quaterniond::FromTwoVectors(before, after) * vector);
+  }
+}
+
+/// Returns the cells that are worse than the worst one asked for, or not proven to be valid.
+std::vector<CellIndex> bad_cells(std::span<const double> quality, double floor) {
+  std::vector<CellIndex> bad;
+  for (CellIndex c = 0; c < quality.size(); ++c)
+    if (!(quality[c] > 0.0) || quality[c] < floor) bad.push_back(c);
+  return bad;
+}
+
+}  // namespace
+
+template <int dim>
+MidsidePlacement<dim>::MidsidePlacement(const Mesh<dim>& initial)
+    : initial_(initial.copied_coordinates()), topology_(initial.shared_topology()) {
+  const Topology& topology = *topology_;
+  std::vector<bool> is_known(initial.n_nodes(), false);
+  std::vector<MiddleNode> of_cells;
+  for (CellIndex c = 0; c < topology.n_cells(); ++c) {
+    const auto corners = topology.cell_nodes(c), midside = topology.midside_nodes(c);
+    const auto counts = midside_counts(dim, corners.size(), midside.size());
+    std::size_t k = 0;
+    for_each_midside_place(dim, corners, midside, [&](const MidsidePlace& place, NodeIndex node) {
+      const std::size_t position = k++;
+      if (is_known[node]) return;
+      is_known[node] = true;
+      if (position < counts.edges)
+        edges_.push_back({node, place[0], place[1]});
+      else if (position < counts.edges + counts.faces)
+        middles_.push_back(middle_of_face(node, corners, midside, position - counts.edges));
+      else
+        of_cells.push_back({node,
+                            {corners.begin(), corners.end()},
+                            {midside.begin(), midside.begin() + counts.edges},
+                            {midside.begin() + counts.edges, midside.end() - 1}});
+    });
+  }
+  middles_.insert(middles_.end(), of_cells.begin(), of_cells.end());
+  find_bent_nodes();
+}
+
+template <int dim>
+void MidsidePlacement<dim>::find_bent_nodes() {
+  constexpr double rounding = 1e-9;  // of coordinates in files, relative to the edge
+  is_bent_.assign(initial_.size(), false);
+  const Points x(initial_);
+  for_each_node([&](const auto& node) {
+    is_bent_[node.node] = (x[node.node] - straight(node, x)).norm() > rounding * direction(node, x).norm();
+  });
+}
+
+template <int dim>
+typename MidsidePlacement<dim>::MiddleNode MidsidePlacement<dim>::middle_of_face(
+    NodeIndex node, std::span<const NodeIndex> corners, std::span<const NodeIndex> midside,
+    std::size_t face) {
+  MiddleNode result{node, {}, {}, {}};
+  std::size_t f = 0;
+  for_each_quadrilateral_face(corners.size(), [&](const LocalFace& local) {
+    if (f++ != face) return;
+    std::size_t e = 0;
+    for_each_edge(dim, corners.size(), [&](std::size_t a, std::size_t b) {
+      const auto is_of_face = [&](std::size_t corner) {
+        return std::find(local.nodes.begin(), local.nodes.end(), corner) != local.nodes.end();
+      };
+      if (is_of_face(a) && is_of_face(b)) result.edges.push_back(midside[e]);
+      ++e;
+    });
+    for (const LocalIndex k : local.nodes) result.corners.push_back(corners[k]);
+  });
+  return result;
+}
+
+template <int dim>
+Point<dim> MidsidePlacement<dim>::straight(const MiddleNode& middle, Points x) const {
+  const auto sum = [&](const std::vector<NodeIndex>& nodes) {
+    Point<dim> total = Point<dim>::Zero();
+    for (const NodeIndex node : nodes) total += x[node];
+    return total;
+  };
+  const Weights& weights = middle.corners.size() == 8   ? of_hexahedron
+                           : middle.corners.size() == 3 ? of_triangle
+                                                        : of_quadrilateral;
+  return weights.corners * sum(middle.corners) + weights.edges * sum(middle.edges) +
+         weights.faces * sum(middle.faces);
+}
+
+template <int dim>
+bool MidsidePlacement<dim>::has_moved(const MiddleNode& middle, Points x) const {
+  return std::any_of(middle.corners.begin(), middle.corners.end(),
+                     [&](NodeIndex node) { return x[node] != initial_[node]; });
+}
+
+template <int dim>
+template <class Visit>
+void MidsidePlacement<dim>::for_each_node(const Visit& visit) const {
+  for (const EdgeNode& edge : edges_) visit(edge);
+  for (const MiddleNode& middle : middles_) visit(middle);
+}
+
+template <int dim>
+template <class Node>
+Point<dim> MidsidePlacement<dim>::bent(const Node& node, Points x, double part) const {
+  const Points before(initial_);
+  const Point<dim> offset = before[node.node] - straight(node, before);
+  return straight(node, x) +
+         part * moved_with<dim>(offset, direction(node, before), direction(node, x));
+}
+
+template <int dim>
+void MidsidePlacement<dim>::place_all(Mesh<dim>& mesh,
+                                      std::span<const std::uint8_t> quarters) const {
+  const auto x = mesh.coordinates();
+  const auto place = [&](const auto& node) {
+    const std::uint8_t n = quarters[node.node];
+    if (!has_moved(node, x))
+      x[node.node] = initial_[node.node];
+    else
+      x[node.node] = n == 0 ? straight(node, x) : bent(node, x, 0.25 * n);
+  };
+  parallel_for_ranges(edges_.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) place(edges_[i]);
+  });
+  for (const MiddleNode& middle : middles_) place(middle);
+}
+
+template <int dim>
+MidsideReport MidsidePlacement<dim>::place(Mesh<dim>& mesh, double floor,
+                                           std::vector<double>& cell_quality) const {
+  constexpr std::uint8_t whole = 4;
+  MidsideReport report;
+  std::vector<std::uint8_t> quarters(mesh.n_nodes(), 0);
+  const auto x = mesh.coordinates();
+  while (true) {
+    place_all(mesh, quarters);
+    cell_quality = curved_mean_ratios(mesh);
+    bool has_changed = false;
+    for (const CellIndex c : bad_cells(cell_quality, floor)) {
+      bool can_bend = false;
+      for (const NodeIndex node : topology_->midside_nodes(c))
+        can_bend = can_bend || (quarters[node] < whole && is_bent_[node]);
+      for (const NodeIndex node : topology_->midside_nodes(c))
+        if (can_bend && quarters[node] < whole && is_bent_[node]) {
+          ++quarters[node];
+          has_changed = true;
+        }
+      if (can_bend) continue;
+      for (const NodeIndex node : topology_->cell_nodes(c))
+        if (x[node] != initial_[node]) {
+          x[node] = initial_[node];
+          ++report.n_reset;
+          has_changed = true;
+        }
+    }
+    if (!has_changed) break;
+  }
+  for_each_node([&](const auto& node) {
+    report.n_bent += quarters[node.node] > 0 && has_moved(node, x);
+  });
+  return report;
+}
+
+template <int dim>
+MidsideReport MidsidePlacement<dim>::repair(Mesh<dim>& mesh) {
+  constexpr std::uint8_t whole = 8;
+  const auto linear = Mesh<dim>(topology_->without_midside(), initial_);
+  const auto of_corners = cell_mean_ratios(linear);
+  std::vector<std::uint8_t> eighths(mesh.n_nodes(), whole);
+  const auto x = mesh.coordinates();
+  MidsideReport report;
+  bool is_first = true;
+  while (true) {
+    const auto quality = curved_mean_ratios(mesh);
+    bool has_changed = false;
+    for (const CellIndex c : bad_cells(quality, 0.0)) {
+      if (!(of_corners[c] > 0.0)) continue;
+      report.n_repaired += is_first;
+      for (const NodeIndex node : topology_->midside_nodes(c))
+        if (is_bent_[node] && eighths[node] > 0) {
+          --eighths[node];
+          has_changed = true;
+        }
+    }
+    is_first = false;
+    if (!has_changed) break;
+    for_each_node([&](const auto& node) {
+      const double part = static_cast<double>(eighths[node.node]) / whole;
+      if (part < 1.0) {
+        const Point<dim> place = straight(node, x);
+        x[node.node] = place + part * (initial_[node.node] - place);
+      }
+    });
+  }
+  const auto on_boundary = nodes_on_facets();
+  for_each_node([&](const auto& node) {
+    const bool is_relaxed = eighths[node.node] < whole;
+    report.n_relaxed += is_relaxed;
+    report.n_relaxed_on_boundary += is_relaxed && on_boundary[node.node];
+  });
+  if (report.n_relaxed > 0) {
+    initial_.assign(x.begin(), x.end());
+    find_bent_nodes();
+  }
+  return report;
+}
+
+template <int dim>
+std::vector<bool> MidsidePlacement<dim>::nodes_on_facets() const {
+  auto places = places_of_facets<dim>(topology_->boundary_facets());
+  places.merge(places_of_facets<dim>(inner_interfaces(*topology_).facets));
+  std::vector<bool> flags(initial_.size(), false);
+  for (CellIndex c = 0; c < topology_->n_cells(); ++c)
+    for_each_midside_place(dim, topology_->cell_nodes(c), topology_->midside_nodes(c),
+                           [&](const MidsidePlace& place, NodeIndex node) {
+                             flags[node] = flags[node] || places.contains(place);
+                           });
+  return flags;
+}
+
+template class MidsidePlacement<2>;
+template class MidsidePlacement<3>;
+
+}  // namespace smoothfem

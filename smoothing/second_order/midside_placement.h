@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "smoothing/mesh/mesh.h"
+
+namespace smoothfem {
+
+/// What MidsidePlacement::place() and repair() have done besides.
+struct MidsideReport {
+  std::size_t n_bent = 0;     ///< nodes inside that keep a part of their initial curvature
+  std::size_t n_reset = 0;    ///< corners that went back to their initial places
+  std::size_t n_relaxed = 0;  ///< nodes that repair() moved towards their straight places
+  std::size_t n_relaxed_on_boundary = 0;  ///< of these, nodes of boundary and interfaces
+  std::size_t n_repaired = 0;             ///< cells that were invalid before
+};
+
+/// Moves the midside nodes of a mesh of second order after its corners.
+///
+/// A node whose edge, face or cell has no moved corner stays, so that boundaries and interfaces
+/// keep their curves and surfaces. Any other node goes to its straight place: the middle of its
+/// edge; in a face or a cell the place that the nodes of its edges and faces ask for (transfinite
+/// interpolation). Straight inner cells have affine mappings, for which elements of degree 2 are
+/// best. But a curved boundary may cut through straight edges. Where a cell becomes invalid, or
+/// worse than the worst one asked for, nodes inside take on their initial curvature again, a quarter
+/// at a time: the offset from the straight place, turned and scaled with the edge. Where that does
+/// not suffice, corners go back to their initial places.
+template <int dim>
+class MidsidePlacement {
+ public:
+  /// initial: a mesh of second order, whose midside nodes define the curves.
+  explicit MidsidePlacement(const Mesh<dim>& initial);
+
+  /// Moves midside nodes of cells that are not proven to be valid, although their corners are
+  /// valid, towards their straight places, an eighth at a time, until the cells are valid. The
+  /// result becomes the initial mesh, and `mesh` gets its nodes.
+  MidsideReport repair(Mesh<dim>& mesh);
+
+  /// Places the midside nodes of a mesh of the same topology. floor: least mean ratio of cells, not
+  /// above that of the initial mesh. cell_quality: gets the mean ratio of each curved cell. If the
+  /// initial mesh is valid, so is the result.
+  MidsideReport place(Mesh<dim>& mesh, double floor, std::vector<double>& cell_quality) const;
+
+ private:
+  struct EdgeNode {
+    NodeIndex node, a, b;
+  };
+  /// A node in the middle of a face or a cell. Its straight place is a weighted sum of the corners,
+  /// the nodes of the edges and those of the faces.
+  struct MiddleNode {
+    NodeIndex node;
+    std::vector<NodeIndex> corners, edges, faces;
+  };
+  using Points = std::span<const Point<dim>>;
+
+  static MiddleNode middle_of_face(NodeIndex node, std::span<const NodeIndex> corners,
+                                   std::span<const NodeIndex> midside, std::size_t face);
+  Point<dim> straight(const EdgeNode& edge, Points x) const { return 0.5 * (x[edge.a] + x[edge.b]); }
+  Point<dim> straight(const MiddleNode& middle, Points x) const;
+  bool has_moved(const EdgeNode& edge, Points x) const {
+    return x[edge.a] != initial_[edge.a] || x[edge.b] != initial_[edge.b];
+  }
+  bool has_moved(const MiddleNode& middle, Points x) const;
+  /// Returns the vector that a node's offset turns and scales with.
+  static Point<dim> direction(const EdgeNode& edge, Points x) { return x[edge.b] - x[edge.a]; }
+  static Point<dim> direction(const MiddleNode& middle, Points x) {
+    return x[middle.corners[middle.corners.size() == 3 ? 1 : 2]] - x[middle.corners[0]];
+  }
+
+  /// Calls visit(node) for all midside nodes in an order in which each depends on earlier ones.
+  template <class Visit>
+  void for_each_node(const Visit& visit) const;
+  /// Returns the straight place of a node plus a part of its initial offset.
+  template <class Node>
+  Point<dim> bent(const Node& node, Points x, double part) const;
+  /// Places all nodes. quarters: by node, the part of the initial curvature that it keeps.
+  void find_bent_nodes();
+  /// Returns flags of the nodes on the boundary and on interfaces.
+  std::vector<bool> nodes_on_facets() const;
+  void place_all(Mesh<dim>& mesh, std::span<const std::uint8_t> quarters) const;
+
+  std::vector<Point<dim>> initial_;
+  std::shared_ptr<const Topology> topology_;
+  std::vector<EdgeNode> edges_;
+  std::vector<MiddleNode> middles_;  ///< of faces, then of cells
+  std::vector<bool> is_bent_;        ///< by node: is not at its straight place
+};
+
+}  // namespace smoothfem
