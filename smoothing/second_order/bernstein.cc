@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "smoothing/simd/lanes.h"
@@ -12,7 +13,7 @@ namespace smoothfem {
 
 namespace {
 
-constexpr std::size_t max_factor_size = 20;
+constexpr std::size_t max_size_of_factor = 20;
 constexpr std::size_t max_line = 6;
 
 /// Lists the multi-indices with sum `degree`; those of vertices beyond dim are 0.
@@ -23,6 +24,27 @@ std::vector<std::array<int, 4>> multi_indices(BernsteinFactor shape) {
       for (int a = 0; a <= shape.degree - b - c; ++a)
         all.push_back({shape.degree - a - b - c, a, b, c});
   return all;
+}
+
+/// The point of a multi-index. Points of a line are dense at its ends (Chebyshev), so that the
+/// conversion is less sensitive to rounding errors.
+Point<3> factor_point(BernsteinFactor shape, const std::array<int, 4>& index) {
+  Point<3> point(index[1], index[2], index[3]);
+  point /= shape.degree;
+  if (shape.dim == 1 && index[0] > 0 && index[1] > 0)
+    point[0] = 0.5 - 0.5 * std::cos(std::numbers::pi * point[0]);
+  return point;
+}
+
+/// Barycentric coordinates of the point with these coordinates.
+template <class Real>
+std::array<Real, 4> barycentric(int dim, const double* coordinates) {
+  std::array<Real, 4> result{1};
+  for (int d = 0; d < dim; ++d) {
+    result[static_cast<std::size_t>(d) + 1] = coordinates[d];
+    result[0] -= coordinates[d];
+  }
+  return result;
 }
 
 /// Basis function of a multi-index at barycentric coordinates.
@@ -43,14 +65,12 @@ BernsteinSpace::Factor BernsteinSpace::make_factor(BernsteinFactor shape, std::s
   Factor factor{shape, multi_indices(shape), {}, 0, stride};
   const auto n = static_cast<Eigen::Index>(factor.indices.size());
   Matrix values(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) {
-      std::array<Real, 4> barycentric;
-      for (std::size_t v = 0; v < 4; ++v)
-        barycentric[v] =
-            static_cast<Real>(factor.indices[static_cast<std::size_t>(i)][v]) / shape.degree;
-      values(i, j) = basis_function(factor.indices[static_cast<std::size_t>(j)], barycentric);
-    }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Point<3> point = factor_point(shape, factor.indices[static_cast<std::size_t>(i)]);
+    for (Eigen::Index j = 0; j < n; ++j)
+      values(i, j) = basis_function(factor.indices[static_cast<std::size_t>(j)],
+                                    barycentric<Real>(shape.dim, point.data()));
+  }
   const Matrix inverse = values.inverse();
   factor.row = (factor.indices.size() + n_lanes - 1) / n_lanes * n_lanes;
   factor.conversion.assign(factor.indices.size() * factor.row, 0.0);
@@ -74,9 +94,7 @@ BernsteinSpace::BernsteinSpace(std::vector<BernsteinFactor> factors) {
     for (std::size_t i = 0; i < n; ++i) {
       const auto& index = factor.indices[i];
       for (Point<3> point : points_) {
-        for (int d = 0; d < shape.dim; ++d)
-          point[first_coordinate + d] =
-              static_cast<double>(index[static_cast<std::size_t>(d) + 1]) / shape.degree;
+        point.segment(first_coordinate, shape.dim) = factor_point(shape, index).head(shape.dim);
         points.push_back(point);
       }
       if (*std::max_element(index.begin(), index.end()) == shape.degree)
@@ -95,7 +113,7 @@ BernsteinSpace::BernsteinSpace(std::vector<BernsteinFactor> factors) {
     conversion_norm_ *= norm;
     n_terms += n + 1;
   }
-  conversion_error_ = static_cast<double>(n_terms) * 0x1p-52 * conversion_norm_;
+  conversion_error_ = 1.1 * static_cast<double>(n_terms) * 0x1p-53 * conversion_norm_;
   for (const Factor& factor : factors_) add_splits(factor);
 }
 
@@ -136,7 +154,7 @@ void BernsteinSpace::to_coefficients(std::span<double> values) const {
     for (std::size_t start = 0; start < size(); start += n * stride)
       for (std::size_t offset = start; offset < start + stride; ++offset) {
         double* const column = values.data() + offset;
-        std::array<double, max_factor_size> of_column;
+        std::array<double, max_size_of_factor> of_column;
         for (std::size_t j = 0; j < n; ++j) of_column[j] = column[j * stride];
         for (std::size_t first = 0; first < n; first += n_lanes) {
           Lanes sums{};
@@ -155,14 +173,10 @@ double BernsteinSpace::value(std::span<const double> coefficients, const Point<3
     double product = coefficients[c];
     int first_coordinate = 0;
     for (const Factor& factor : factors_) {
-      std::array<double, 4> barycentric{1.0};
-      for (int d = 0; d < factor.shape.dim; ++d) {
-        const double coordinate = x[first_coordinate++];
-        barycentric[static_cast<std::size_t>(d) + 1] = coordinate;
-        barycentric[0] -= coordinate;
-      }
       const auto& index = factor.indices[c / factor.stride % factor.indices.size()];
-      product *= basis_function(index, barycentric);
+      product *=
+          basis_function(index, barycentric<double>(factor.shape.dim, x.data() + first_coordinate));
+      first_coordinate += factor.shape.dim;
     }
     sum += product;
   }

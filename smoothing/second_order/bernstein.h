@@ -21,9 +21,8 @@ struct BernsteinFactor {
 /// least and the greatest coefficient bound the values. Coefficients at the corners are values
 /// there.
 ///
-/// A simplex has the vertices 0 (the origin) to dim (on the axes). Its coefficients belong to the
-/// points of a lattice, whose coordinates are multiples of 1/degree. The first coordinate runs
-/// fastest, and the first factor.
+/// A simplex has the vertices 0 (the origin) to dim (on the axes). Coefficients are ordered like
+/// the points of a lattice: the first coordinate runs fastest, and the first factor.
 class BernsteinSpace {
  public:
   /// A cut of the domain through the middle of an edge of one factor: the positions of all
@@ -33,7 +32,7 @@ class BernsteinSpace {
   explicit BernsteinSpace(std::vector<BernsteinFactor> factors);
 
   std::size_t size() const { return points_.size(); }
-  /// Returns the points of the lattice in the order of the coefficients.
+  /// Returns points whose values determine the coefficients, in the order of these.
   const std::vector<Point<3>>& points() const { return points_; }
   /// Returns the positions of the coefficients at the corners of the domain.
   const std::vector<std::size_t>& corners() const { return corners_; }

@@ -30,10 +30,20 @@ std::vector<BernsteinFactor> jacobian_factors(const SecondOrderType& type) {
   }
 }
 
-/// Bound of the relative error after n rounded operations, with a factor of two for terms of higher
-/// order and for the rounding of the bound.
+/// Bound of the relative error after n rounded operations; a tenth more for terms of higher order
+/// and for the rounding of the bound.
 constexpr double rounding(std::size_t n) {
-  return static_cast<double>(n) * 0x1p-52;
+  return 1.1 * static_cast<double>(n) * 0x1p-53;
+}
+
+/// Raises a bound to `value` where that is greater.
+void raise(Lanes& bound, Lanes value) {
+  bound = value > bound ? value : bound;
+}
+double greatest(Lanes values) {
+  double result = values[0];
+  for (std::size_t l = 1; l < n_lanes; ++l) result = std::max(result, values[l]);
+  return result;
 }
 
 }  // namespace
@@ -43,7 +53,7 @@ struct JacobianTable {
   explicit JacobianTable(const SecondOrderType& type);
 
   BernsteinSpace space;
-  /// Collapsed derivatives of the functions k = 1, 2, ... at the points of the lattice. Those of
+  /// Collapsed derivatives of the functions k = 1, 2, ... at the points of the space. Those of
   /// n_lanes points, direction d and function k begin at ((block * (n-1) + k-1) * dim + d) *
   /// n_lanes.
   std::vector<double> derivatives;
@@ -79,11 +89,12 @@ JacobianTable::JacobianTable(const SecondOrderType& type) : space(jacobian_facto
   for (const auto& [factor_dim, degree] : jacobian_factors(type))
     measure /= factor_dim == 3 ? 6.0 : factor_dim == 2 ? 2.0 : 1.0;
   integrals.assign(n_points, measure / static_cast<double>(n_points));
-  if (type.n_corners == 5)  // collapsing reduces areas by (1-z)^2
-    for (std::size_t i = 0; i < n_points; ++i) {
-      constexpr std::array<double, 4> along_z{1.0 / 6.0, 1.0 / 10.0, 1.0 / 20.0, 1.0 / 60.0};
-      integrals[i] = along_z[i / 36] / 36.0;
-    }
+  if (type.n_corners == 5) {  // collapsing reduces areas by (1-z)^2; z runs slowest
+    constexpr std::array<double, 4> along_z{1.0 / 6.0, 1.0 / 10.0, 1.0 / 20.0, 1.0 / 60.0};
+    const std::size_t n_per_layer = n_points / along_z.size();
+    for (std::size_t i = 0; i < n_points; ++i)
+      integrals[i] = along_z[i / n_per_layer] / static_cast<double>(n_per_layer);
+  }
 }
 
 template <int dim>
@@ -99,7 +110,7 @@ JacobianPolynomial<dim>::JacobianPolynomial(std::span<const Point<dim>> points)
       sum += 0.0 * moved[k][d];
     }
   }
-  if (sum != 0.0) {  // not a number
+  if (sum != 0.0) {  // not a number, from infinity or not a number
     coefficients_.fill(0.0);
     error_ = std::numeric_limits<double>::infinity();
     return;
@@ -116,11 +127,7 @@ JacobianPolynomial<dim>::JacobianPolynomial(std::span<const Point<dim>> points)
       scaled[k] = {Lanes{} + point[0], Lanes{} + point[1], Lanes{} + point[2]};
   }
 
-  const auto raise = [](Lanes& bound, Lanes value) {
-    const Lanes absolute = value < 0.0 ? -value : value;
-    bound = absolute > bound ? absolute : bound;
-  };
-  std::array<Lanes, dim> largest_entries{};
+  std::array<Lanes, dim> squared_columns{};
   Lanes largest_values{};
   const double* derivatives = table_->derivatives.data();
   for (std::size_t p = 0; p < n_coefficients; p += n_lanes) {
@@ -130,37 +137,30 @@ JacobianPolynomial<dim>::JacobianPolynomial(std::span<const Point<dim>> points)
         columns[d] = columns[d] + load_lanes(derivatives) * scaled[k];
         derivatives += n_lanes;
       }
-    for (std::size_t d = 0; d < dim; ++d) {
-      raise(largest_entries[d], columns[d].x);
-      raise(largest_entries[d], columns[d].y);
-      if constexpr (dim == 3) raise(largest_entries[d], columns[d].z);
-    }
+    for (std::size_t d = 0; d < dim; ++d) raise(squared_columns[d], squared_length(columns[d]));
     Lanes values;
     if constexpr (dim == 2)
       values = cross(columns[0], columns[1]);
     else
       values = determinant(columns[0], columns[1], columns[2]);
-    raise(largest_values, values);
+    raise(largest_values, values < 0.0 ? -values : values);
     store_lanes(values, coefficients_.data() + p);
   }
   space().to_coefficients({coefficients_.data(), n_coefficients});
 
-  // An entry of column d has an error up to entry_error. Each term is a product of one entry of
-  // each column.
+  // A determinant is at most the product of its columns' lengths. That bounds what errors of the
+  // columns change. Each of its n_terms terms has five rounded operations.
   constexpr double n_terms = dim == 2 ? 2.0 : 6.0;
-  double product = 1.0, product_error = 0.0;
+  double product = 1.0, change = 0.0;
   for (std::size_t d = 0; d < dim; ++d) {
-    double entry = 0.0;
-    for (std::size_t l = 0; l < n_lanes; ++l) entry = std::max(entry, largest_entries[d][l]);
-    const double entry_error = rounding(n + 3) * table_->derivative_sums[d];
-    product_error = product_error * (entry + entry_error) + product * entry_error;
-    product *= entry;
+    const double length = (1.0 + rounding(4)) * std::sqrt(greatest(squared_columns[d]));
+    const double error =
+        std::sqrt(dim) * rounding(n + 3) * table_->derivative_sums[d] * (scale * largest);
+    change = change * (length + error) + product * error;
+    product *= length;
   }
-  double largest_value = 0.0;
-  for (std::size_t l = 0; l < n_lanes; ++l)
-    largest_value = std::max(largest_value, largest_values[l]);
-  const double value_error = n_terms * (product_error + rounding(5) * product);
-  error_ = space().conversion_norm() * value_error + space().conversion_error() * largest_value +
+  error_ = space().conversion_norm() * (change + n_terms * rounding(5) * product) +
+           space().conversion_error() * greatest(largest_values) +
            std::numeric_limits<double>::min();
 }
 

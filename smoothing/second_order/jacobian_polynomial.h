@@ -21,8 +21,8 @@ struct JacobianTable;
 ///   prism                 triangle, degree 4, times line, degree 5
 ///   hexahedron            cube, degrees 5, 5, 5
 ///
-/// It is computed exactly up to rounding from its values at the lattice. The cell is moved to the
-/// origin and scaled by a power of two, so that no coordinate is greater than 1: numbers can
+/// It is computed exactly up to rounding from its values at as many points. The cell is moved to
+/// the origin and scaled by a power of two, so that no coordinate is greater than 1: numbers can
 /// neither overflow nor, in cells that are not nearly flat, underflow.
 template <int dim>
 class JacobianPolynomial {
@@ -38,7 +38,7 @@ class JacobianPolynomial {
   /// operations and their greatest possible operands. Infinite if a point is not finite.
   ///
   /// In relation to the product of the columns' lengths in J it is about 1e-12 for simplices and
-  /// 1e-9 for hexahedra.
+  /// 3e-9 for hexahedra, the greatest.
   double error() const { return error_; }
 
   /// Returns the area or volume of the cell, negative if it is inverted: the integral of det J.
