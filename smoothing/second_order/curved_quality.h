@@ -12,11 +12,11 @@
 
 namespace smoothfem {
 
-/// Mean ratio of a curved cell: mean_ratio.h with other edges at each corner, the tangents of the
-/// cell's edges there. They have the lengths of edges with the same derivative everywhere. So the
-/// corners have the Jacobian of the curved cell. All corners of a triangle or tetrahedron count, as
-/// they differ. In (0, 1] for cells that are proven valid (jacobian_bounds.h), 0 for all others.
-/// For straight cells it is their mean ratio up to rounding, or 0 if det J is not positive inside.
+/// Mean ratio of a curved cell: as in mean_ratio.h, but with the tangents of the cell's edges at
+/// each corner in place of its straight edges. They are the columns of the cell's Jacobian there.
+/// All corners of a triangle or tetrahedron count, as they differ. In (0, 1] for cells that are
+/// proven valid (jacobian_bounds.h), 0 for all others. For straight cells it is their mean ratio up
+/// to rounding, or 0 if det J is not positive inside.
 template <int dim>
 double curved_mean_ratio(std::span<const Point<dim>> points);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/LU>
 #include <cmath>
 #include <ostream>
 #include <string>
@@ -110,13 +109,20 @@ inline Gradients gradients_at(const SecondOrderType& type, const std::vector<Poi
   return gradients;
 }
 
-/// det J from the gradients of the shape functions at a point.
+/// det J from the gradients of the shape functions at a point. (Not by matrices of Eigen, which are
+/// slow in tests.)
 template <int dim>
 double jacobian(const std::vector<Point<dim>>& nodes, const std::vector<Point<3>>& gradients) {
-  Eigen::Matrix<double, dim, dim> jacobian = Eigen::Matrix<double, dim, dim>::Zero();
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    jacobian += nodes[k] * gradients[k].template head<dim>().transpose();
-  return jacobian.determinant();
+  double j[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int c = 0; c < dim; ++c)
+    for (int d = 0; d < dim; ++d) {
+      j[c][d] = 0.0;
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        j[c][d] += nodes[k].data()[c] * gradients[k].data()[d];
+    }
+  return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
+         j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
+         j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
 }
 
 }  // namespace test
