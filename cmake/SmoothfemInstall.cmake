@@ -62,7 +62,7 @@ install(DIRECTORY launcher/new_smoother launcher/new_problem DESTINATION ${CMAKE
   USE_SOURCE_PERMISSIONS)
 
 # Headers for users' smoothers, and for reading and generating meshes and for solving.
-foreach(folder base geometry getme laplacian loop mesh optimization periodic polygons quality simd surface transformations)
+foreach(folder base geometry getme laplacian loop mesh optimization periodic polygons quality second_order simd surface transformations)
   file(GLOB headers CONFIGURE_DEPENDS smoothing/${folder}/*.h)
   install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/smoothing/${folder}
     COMPONENT development)

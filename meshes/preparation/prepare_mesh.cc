@@ -143,6 +143,31 @@ std::string invalid_cells_text(std::size_t n_invalid, std::size_t n_cells) {
          "example smart-laplace or getme";
 }
 
+std::vector<MidsideNote> midside_notes(const MidsideReport& report) {
+  std::vector<MidsideNote> notes;
+  const auto count = [](std::size_t n, const std::string& what) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+  };
+  if (report.n_repaired > 0) {
+    std::string sentence =
+        "curved cells were invalid before smoothing: " + std::to_string(report.n_repaired) +
+        "; to repair them, " + count(report.n_relaxed, "midside node") +
+        " moved towards the straight place";
+    if (report.n_relaxed_on_boundary > 0)
+      sentence += "; " + std::to_string(report.n_relaxed_on_boundary) +
+                  " of these lie on the boundary or on interfaces, which change there";
+    notes.push_back({std::move(sentence), report.n_relaxed_on_boundary > 0});
+  }
+  if (report.n_bent > 0)
+    notes.push_back({count(report.n_bent, "midside node") +
+                     " inside still bent as before, because straight edges make cells worse"});
+  if (report.n_reset > 0)
+    notes.push_back({count(report.n_reset, "corner") +
+                     " back at the initial position, because curved cells around became invalid "
+                     "or worse than the worst one before"});
+  return notes;
+}
+
 std::string floor_text(const SmoothingResult& result) {
   if (result.n_floor_reset == 0) return {};
   return std::to_string(result.n_floor_reset) +

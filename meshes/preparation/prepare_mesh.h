@@ -36,6 +36,13 @@ SmoothingResult smooth_prepared(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>
 /// Returns a sentence on invalid cells of a smoothed mesh, with advice; empty if there are none.
 std::string invalid_cells_text(std::size_t n_invalid, std::size_t n_cells);
 
+/// Returns sentences on midside nodes; none for linear meshes. is_warning: the domain has changed.
+struct MidsideNote {
+  std::string sentence;
+  bool is_warning = false;
+};
+std::vector<MidsideNote> midside_notes(const MidsideReport& report);
+
 /// Returns a sentence on the nodes that Method::floor has reset; empty if there are none.
 std::string floor_text(const SmoothingResult& result);
 

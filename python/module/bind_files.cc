@@ -11,8 +11,8 @@
 #include "python/module/bind.h"
 #include "python/module/python_mesh.h"
 #include "smoothing/base/find_named.h"
-#include "smoothing/geometry/cell_size.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/second_order/curved_quality.h"
 
 namespace smoothfem {
 
@@ -55,12 +55,10 @@ double distort_mesh(PythonMesh& mesh, std::optional<double> q_mean, std::optiona
 
 template <int dim, int spacedim>
 std::vector<double> cell_sizes(const Mesh<dim, spacedim>& mesh) {
-  std::vector<double> sizes(mesh.n_cells());
   if constexpr (dim == spacedim)
-    for (CellIndex c = 0; c < mesh.n_cells(); ++c) sizes[c] = signed_cell_size(mesh, c);
+    return curved_cell_sizes(mesh);
   else
     throw InputError("the metric size is for planar and volume meshes, but this is a surface mesh");
-  return sizes;
 }
 
 template <int dim, int spacedim>

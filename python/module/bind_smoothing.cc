@@ -129,6 +129,8 @@ void add_warnings(std::size_t n_cells, Result& result) {
   for (const auto& text :
        {floor_text(result), invalid_cells_text(result.quality.n_invalid, n_cells)})
     if (!text.empty()) result.warnings.push_back(text);
+  for (const auto& [sentence, is_warning] : midside_notes(result.midside))
+    (is_warning ? result.warnings : result.notes).push_back(sentence);
 }
 
 /// The GIL must be held; others may run meanwhile. Python's arrays look at the memory of `mesh`, so

@@ -14,6 +14,7 @@
 #include "smoothing/mesh/node_constraints.h"
 #include "smoothing/mesh/reordering.h"
 #include "smoothing/mesh/volume_elements.h"
+#include "smoothing/second_order/smooth_second_order.h"
 
 namespace smoothfem {
 
@@ -313,6 +314,26 @@ class ScaledMesh {
 
 }  // namespace
 
+namespace {
+
+template <int dim, int spacedim>
+SmoothingResult smooth_corners_first(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                                     const Observer<dim, spacedim>& observer) {
+  if constexpr (spacedim > dim)
+    throw InputError("surface meshes of second order cannot be smoothed; save it with order 1");
+  else if (method.info.needs_problem())
+    throw InputError("method " + method.info.name +
+                     " solves a problem on linear cells; it does not support meshes of second "
+                     "order");
+  else
+    return smooth_second_order(mesh, method.floor != 0, observer,
+                               [&](Mesh<dim>& corners, const Observer<dim>& of_corners) {
+                                 return smooth(corners, method, of_corners);
+                               });
+}
+
+}  // namespace
+
 std::string SmoothingResult::iterations_text() const {
   std::string text;
   for (const auto& stage : stages) {
@@ -325,6 +346,7 @@ std::string SmoothingResult::iterations_text() const {
 template <int dim, int spacedim>
 SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                        const std::type_identity_t<Observer<dim, spacedim>>& observer) {
+  if (mesh.topology().midside()) return smooth_corners_first(mesh, method, observer);
   require_constraints_kept(mesh, method);
   require_targets_taken(mesh, method);
   require_problem(method);

@@ -43,6 +43,15 @@ struct StageResult {
   std::size_t n_last_reset = 0;  ///< nodes (or elements) that were reset in the last iteration
 };
 
+/// What became of the midside nodes of a mesh of second order (midside_placement.h).
+struct MidsideReport {
+  std::size_t n_repaired = 0;             ///< cells that were invalid before and are not any more
+  std::size_t n_relaxed = 0;              ///< nodes moved for that towards their straight places
+  std::size_t n_relaxed_on_boundary = 0;  ///< of these, nodes of the boundary and of interfaces
+  std::size_t n_bent = 0;   ///< nodes inside that keep a part of their initial curvature
+  std::size_t n_reset = 0;  ///< corners that went back to their initial places
+};
+
 struct SmoothingResult {
   std::vector<StageResult> stages;
   double smoothing_seconds = 0.0;    ///< of the stages' main loops (thesis, Section 5.2.1)
@@ -51,6 +60,7 @@ struct SmoothingResult {
   std::size_t result_record = 0;     ///< the record whose mesh is the result
   std::size_t n_floor_reset = 0;     ///< nodes that Method::floor has reset
   std::size_t n_floor_invalid = 0;   ///< invalid cells before that
+  MidsideReport midside = {};        ///< of meshes of second order
 
   /// Returns the iterations as in the thesis' tables, one number for each stage: "40/2800".
   std::string iterations_text() const;
@@ -64,6 +74,9 @@ struct SmoothingResult {
 /// cells, keeps the best mesh, stops and measures times. It also reorders large meshes for memory
 /// locality; the caller and the observer see the original order. Results are bitwise identical for
 /// every number of threads.
+///
+/// In meshes of second order the method moves the corners, and midside nodes follow
+/// (smooth_second_order.h).
 ///
 /// Throws InputError if the method needs a valid mesh and `mesh` is invalid. Throws it also if the
 /// method cannot keep the constraints of the mesh, or if it needs a problem and has none. After any

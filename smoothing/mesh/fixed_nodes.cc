@@ -141,6 +141,13 @@ std::array<std::size_t, fixed_reasons.size()> count_fixed_reasons(const Topology
   return counts;
 }
 
+std::size_t n_midside_nodes(const Topology& topology) {
+  const auto& reasons = topology.fixed_reasons();
+  return static_cast<std::size_t>(
+      std::count_if(reasons.begin(), reasons.end(),
+                    [](FixedReasons of_node) { return has(of_node, FixedReason::midside); }));
+}
+
 std::string fixed_reasons_text(const Topology& topology) {
   const auto& reasons = topology.fixed_reasons();
   const auto n_fixed = std::count_if(reasons.begin(), reasons.end(), [](FixedReasons of_node) {

@@ -37,6 +37,9 @@ std::vector<FixedReasons> without(const std::vector<FixedReasons>& reasons, Fixe
 /// True if some node stays for one of these reasons.
 bool any_node_has(const Topology& topology, FixedReasons reasons);
 
+/// Returns the number of nodes that follow their corners (midside_nodes.h).
+std::size_t n_midside_nodes(const Topology& topology);
+
 /// Number of nodes that stay for each reason, in the order of fixed_reasons. Nodes with several
 /// reasons count for each.
 std::array<std::size_t, fixed_reasons.size()> count_fixed_reasons(const Topology& topology);

@@ -3,6 +3,7 @@
 
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/periodic/smooth_periodic.h"
+#include "smoothing/second_order/smooth_second_order.h"
 
 namespace smoothfem {
 
@@ -15,6 +16,11 @@ template <int dim>
 SmoothingResult smooth_by_rules(Mesh<dim>& mesh, Method<dim>& method, const MeshRules& rules,
                                 const std::type_identity_t<Observer<dim>>& observer) {
   if (!moves_partners(mesh.topology(), rules)) return smooth(mesh, method, observer);
+  if (mesh.topology().midside())
+    return smooth_second_order(mesh, method.floor != 0, observer,
+                               [&](Mesh<dim>& corners, const Observer<dim>& of_corners) {
+                                 return smooth_by_rules(corners, method, rules, of_corners);
+                               });
   PeriodicParameters<dim> parameters;
   if (mesh.constraints()) {
     const SlidingSurfaces sliding{.boundary = rules.boundary_slides,

@@ -10,6 +10,7 @@
 #include "smoothing/geometry/cell_size.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/target_corners.h"
+#include "smoothing/second_order/curved_quality.h"
 
 namespace smoothfem {
 
@@ -76,6 +77,10 @@ template <int dim, int spacedim>
 MeshQuality compute_cell_mean_ratios(const Mesh<dim, spacedim>& mesh,
                                      std::vector<double>& cell_quality) {
   const Topology& topology = mesh.topology();
+  if (topology.midside()) {
+    cell_quality = curved_mean_ratios(mesh);
+    return mesh_quality(topology, cell_quality);
+  }
   cell_quality.resize(mesh.n_cells());
   std::vector<PartialQuality> parts(topology.blocks().size());
   parallel_for(parts.size(), [&](std::size_t b) {

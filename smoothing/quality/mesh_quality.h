@@ -20,7 +20,7 @@ struct MeshQuality {
 };
 
 /// Returns the mean ratio of every cell, in the order of the cells; 0 for invalid ones. Planar,
-/// volume and surface meshes.
+/// volume and surface meshes. Cells of second order have that of curved_mean_ratio().
 template <int dim, int spacedim>
 std::vector<double> cell_mean_ratios(const Mesh<dim, spacedim>& mesh);
 /// Writes the mean ratios to a vector of n_cells numbers; returns the quality of the mesh.

@@ -16,6 +16,8 @@ namespace smoothfem {
 
 namespace {
 
+constexpr std::size_t grain = 1024;
+
 /// Weights of the corners, the edges' nodes and the faces' nodes in the straight place of a face's
 /// or a cell's node: transfinite interpolation (Gordon and Hall 1973, doi 10.1007/BF01436298). In a
 /// triangle it is the place that the polynomial of degree 2 gives.
@@ -104,7 +106,8 @@ void MidsidePlacement<dim>::find_bent_nodes() {
   is_bent_.assign(initial_.size(), false);
   const Points x(initial_);
   for_each_node([&](const auto& node) {
-    is_bent_[node.node] = (x[node.node] - straight(node, x)).norm() > rounding * direction(node, x).norm();
+    is_bent_[node.node] =
+        (x[node.node] - straight(node, x)).norm() > rounding * direction(node, x).norm();
   });
 }
 
@@ -212,9 +215,8 @@ MidsideReport MidsidePlacement<dim>::place(Mesh<dim>& mesh, double floor,
     }
     if (!has_changed) break;
   }
-  for_each_node([&](const auto& node) {
-    report.n_bent += quarters[node.node] > 0 && has_moved(node, x);
-  });
+  for_each_node(
+      [&](const auto& node) { report.n_bent += quarters[node.node] > 0 && has_moved(node, x); });
   return report;
 }
 

@@ -6,18 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {
-
-/// What MidsidePlacement::place() and repair() have done besides.
-struct MidsideReport {
-  std::size_t n_bent = 0;     ///< nodes inside that keep a part of their initial curvature
-  std::size_t n_reset = 0;    ///< corners that went back to their initial places
-  std::size_t n_relaxed = 0;  ///< nodes that repair() moved towards their straight places
-  std::size_t n_relaxed_on_boundary = 0;  ///< of these, nodes of boundary and interfaces
-  std::size_t n_repaired = 0;             ///< cells that were invalid before
-};
 
 /// Moves the midside nodes of a mesh of second order after its corners.
 ///
@@ -26,9 +18,9 @@ struct MidsideReport {
 /// edge; in a face or a cell the place that the nodes of its edges and faces ask for (transfinite
 /// interpolation). Straight inner cells have affine mappings, for which elements of degree 2 are
 /// best. But a curved boundary may cut through straight edges. Where a cell becomes invalid, or
-/// worse than the worst one asked for, nodes inside take on their initial curvature again, a quarter
-/// at a time: the offset from the straight place, turned and scaled with the edge. Where that does
-/// not suffice, corners go back to their initial places.
+/// worse than the worst one asked for, nodes inside take on their initial curvature again, a
+/// quarter at a time: the offset from the straight place, turned and scaled with the edge. Where
+/// that does not suffice, corners go back to their initial places.
 template <int dim>
 class MidsidePlacement {
  public:
@@ -59,7 +51,9 @@ class MidsidePlacement {
 
   static MiddleNode middle_of_face(NodeIndex node, std::span<const NodeIndex> corners,
                                    std::span<const NodeIndex> midside, std::size_t face);
-  Point<dim> straight(const EdgeNode& edge, Points x) const { return 0.5 * (x[edge.a] + x[edge.b]); }
+  Point<dim> straight(const EdgeNode& edge, Points x) const {
+    return 0.5 * (x[edge.a] + x[edge.b]);
+  }
   Point<dim> straight(const MiddleNode& middle, Points x) const;
   bool has_moved(const EdgeNode& edge, Points x) const {
     return x[edge.a] != initial_[edge.a] || x[edge.b] != initial_[edge.b];

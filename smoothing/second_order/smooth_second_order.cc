@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/second_order/smooth_second_order.h"
 
+#include <optional>
+#include <utility>
+
 #include "smoothing/base/scoped_timer.h"
 #include "smoothing/second_order/midside_placement.h"
 
@@ -9,8 +12,8 @@ namespace smoothfem {
 template <int dim>
 SmoothingResult smooth_second_order(
     Mesh<dim>& mesh, bool keeps_floor, const std::type_identity_t<Observer<dim>>& observer,
-    const std::type_identity_t<
-        std::function<SmoothingResult(Mesh<dim>&, const Observer<dim>&)>>& smooth_corners) {
+    const std::type_identity_t<std::function<SmoothingResult(Mesh<dim>&, const Observer<dim>&)>>&
+        smooth_corners) {
   if (mesh.constraints())
     throw InputError(
         "nodes of the boundary cannot slide in meshes of second order; leave the boundary fixed");
@@ -43,7 +46,9 @@ SmoothingResult smooth_second_order(
   {
     const ScopedTimer timer(placing_seconds);
     mesh.set_coordinates(std::as_const(corners).coordinates());
-    report += placement->place(mesh, floor, quality);
+    const MidsideReport placed = placement->place(mesh, floor, quality);
+    report.n_bent = placed.n_bent;
+    report.n_reset = placed.n_reset;
   }
   result.quality = mesh_quality(mesh.topology(), quality);
   result.preparation_seconds += preparation_seconds;

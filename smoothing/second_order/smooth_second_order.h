@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <type_traits>
 
 #include "smoothing/loop/smooth.h"
@@ -15,7 +16,7 @@ namespace smoothfem {
 template <int dim>
 SmoothingResult smooth_second_order(
     Mesh<dim>& mesh, bool keeps_floor, const std::type_identity_t<Observer<dim>>& observer,
-    const std::type_identity_t<
-        std::function<SmoothingResult(Mesh<dim>&, const Observer<dim>&)>>& smooth_corners);
+    const std::type_identity_t<std::function<SmoothingResult(Mesh<dim>&, const Observer<dim>&)>>&
+        smooth_corners);
 
 }  // namespace smoothfem

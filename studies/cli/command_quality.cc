@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <utility>
 
 #include "meshes/doctor/examine_boundary.h"
 #include "meshes/io/atomic_file.h"
@@ -15,6 +17,7 @@
 #include "smoothing/quality/dihedral_angles.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/quality/warpage.h"
+#include "smoothing/second_order/curved_quality.h"
 #include "smoothing/surface/surface_constraints.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/mesh_notes.h"
@@ -80,9 +83,25 @@ std::vector<NamedNumber> geometry_numbers(const SurfaceMesh& mesh) {
           {"n_line_nodes", "on lines", count(GeometricClassification::line)}};
 }
 
+/// Adds the numbers of curved cells; the least scaled Jacobian is a lower bound.
+template <int dim>
+void add_curved_numbers(const Mesh<dim>& mesh, std::vector<NamedNumber>& numbers) {
+  const auto scaled = scaled_jacobians(mesh);
+  const auto sizes = curved_cell_sizes(mesh);
+  const auto sum = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+  };
+  numbers.push_back(
+      {"scaled_jacobian_min", "sj_min", *std::min_element(scaled.begin(), scaled.end())});
+  numbers.push_back(
+      {"scaled_jacobian_mean", "sj_mean", sum(scaled) / static_cast<double>(scaled.size())});
+  numbers.push_back({dim == 2 ? "area" : "volume", dim == 2 ? "area" : "volume", sum(sizes)});
+}
+void add_curved_numbers(const SurfaceMesh&, std::vector<NamedNumber>&) {}
+
 /// Everything that is reported about a mesh.
 struct Report {
-  std::size_t n_nodes, n_fixed_nodes, n_cells;
+  std::size_t n_nodes, n_midside_nodes, n_fixed_nodes, n_cells;
   std::string fixed;  ///< why the fixed nodes stay
   std::map<std::string, std::size_t> fixed_by_reason;
   std::map<std::string, std::size_t> cells;
@@ -99,6 +118,8 @@ void print_text(const Report& r) {
     types += (types.empty() ? "" : ", ") + std::to_string(count) + " " +
              (count == 1 ? type : plural(type));
   std::printf("%-13s%zu (%zu fixed)\n", "nodes", r.n_nodes, r.n_fixed_nodes);
+  if (r.n_midside_nodes > 0)
+    std::printf("%-13s%zu follow their corners\n", "midside", r.n_midside_nodes);
   if (!r.fixed.empty()) std::printf("%-13s%s\n", "", r.fixed.c_str());
   std::printf("%-13s%zu (%s)\n", "cells", r.n_cells, types.c_str());
   std::printf("%-13s%.6f\n%-13s%.6f\n%-13s%.6f\n%-13s%zu\n", "q_min", r.quality.q_min, "q*_min",
@@ -134,6 +155,7 @@ void print_json(const Report& r) {
                                  {"q_min", r.quality.q_min},
                                  {"q_star_min", r.quality.q_star_min},
                                  {"q_mean", r.quality.q_mean}};
+  if (r.n_midside_nodes > 0) json["n_midside_nodes"] = r.n_midside_nodes;
   for (const auto& [key, text, value] : r.geometry) json[key] = value;
   json["histogram"] = r.histogram;
   for (const MetricStatistics& m : r.metrics) {
@@ -245,15 +267,19 @@ void report(const QualityArguments& arguments, const Mesh<dim, spacedim>& mesh,
             const std::vector<std::size_t>& cell_lines) {
   const Topology& topology = mesh.topology();
   const auto cell_quality = cell_mean_ratios(mesh);
+  auto geometry = geometry_numbers(mesh);
+  if (topology.midside()) add_curved_numbers(mesh, geometry);
+  const std::size_t n_midside = n_midside_nodes(topology);
   (arguments.json ? print_json : print_text)(
       {.n_nodes = mesh.n_nodes(),
-       .n_fixed_nodes = mesh.n_nodes() - topology.free_nodes().size(),
+       .n_midside_nodes = n_midside,
+       .n_fixed_nodes = mesh.n_nodes() - topology.free_nodes().size() - n_midside,
        .n_cells = mesh.n_cells(),
        .fixed = fixed_reasons_text(topology),
        .fixed_by_reason = fixed_by_reason(topology),
        .cells = count_types(topology),
        .quality = mesh_quality(topology, cell_quality),
-       .geometry = geometry_numbers(mesh),
+       .geometry = std::move(geometry),
        .histogram = quality_histogram(cell_quality, n_bins),
        .metrics = metric_statistics(metrics_named(arguments.metrics), &mesh),
        .findings = examine_boundary(mesh).findings});

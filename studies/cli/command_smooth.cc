@@ -171,6 +171,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   MeshFields fields;
   if (has_targets) fields.cell["target_mean_ratio"] = cell_mean_ratios(mesh);
   mesh = without_targets(mesh);
+  report_midside(outcome.smoothing.midside, arguments.quiet);
   report_floor(outcome.method_title, outcome.smoothing, mesh.n_cells(), arguments.quiet);
   warn_about_invalid_cells(arguments, outcome.smoothing.quality.n_invalid, mesh.n_cells());
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);

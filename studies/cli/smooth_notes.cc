@@ -10,6 +10,7 @@
 #include "meshes/io/losses.h"
 #include "smoothing/base/text.h"
 #include "smoothing/geometry/cell_size.h"
+#include "smoothing/second_order/curved_quality.h"
 
 namespace smoothfem {
 
@@ -43,7 +44,11 @@ std::string fields_text(const FileContent* content) {
 template <int dim, int spacedim>
 std::vector<double> cell_sizes(const Mesh<dim, spacedim>& mesh) {
   std::vector<double> sizes(mesh.n_cells());
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c) sizes[c] = std::abs(signed_cell_size(mesh, c));
+  if constexpr (dim == spacedim)
+    sizes = curved_cell_sizes(mesh);
+  else
+    for (CellIndex c = 0; c < mesh.n_cells(); ++c) sizes[c] = signed_cell_size(mesh, c);
+  for (double& size : sizes) size = std::abs(size);
   return sizes;
 }
 

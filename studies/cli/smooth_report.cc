@@ -31,6 +31,14 @@ void print_stages(const SmoothingResult& result, std::size_t n_free_nodes) {
     std::printf("the result is the initial mesh: no iteration made a better one\n");
 }
 
+void report_midside(const MidsideReport& report, bool quiet) {
+  for (const auto& [sentence, is_warning] : midside_notes(report))
+    if (is_warning)
+      std::fprintf(stderr, "smoothfem: warning: %s\n", sentence.c_str());
+    else if (!quiet)
+      std::printf("%s\n", sentence.c_str());
+}
+
 void report_floor(const std::string& method, const SmoothingResult& result, std::size_t n_cells,
                   bool quiet) {
   const std::string text = floor_text(result);

@@ -46,6 +46,9 @@ void print_quality(const char* when, const MeshQuality& quality);
 /// Prints why each stage ended, and a hint if its last iteration reset many nodes.
 void print_stages(const SmoothingResult& result, std::size_t n_free_nodes);
 
+/// Says what became of midside nodes; warns if the boundary has changed.
+void report_midside(const MidsideReport& report, bool quiet);
+
 /// Says how many nodes Method::floor has reset, and warns if the method had made cells invalid.
 void report_floor(const std::string& method, const SmoothingResult& result, std::size_t n_cells,
                   bool quiet);
