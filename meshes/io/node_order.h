@@ -66,8 +66,8 @@ struct NodeOrder {
   }
   /// Changes a row of midside_nodes.h into one of the format.
   void to_file(std::span<NodeIndex> row) const {
-    const auto ours = copy_of(row);
-    for (std::size_t k = 0; k < size; ++k) row[k] = ours[positions[k]];
+    const auto former = copy_of(row);
+    for (std::size_t k = 0; k < size; ++k) row[k] = former[positions[k]];
   }
 
  private:
