@@ -326,7 +326,7 @@ SmoothingResult smooth_corners_first(Mesh<dim, spacedim>& mesh, Method<dim, spac
                      " solves a problem on linear cells; it does not support meshes of second "
                      "order");
   else
-    return smooth_second_order(mesh, method.floor != 0, observer,
+    return smooth_second_order(mesh, CornerNumbers::dense, method.floor != 0, observer,
                                [&](Mesh<dim>& corners, const Observer<dim>& of_corners) {
                                  return smooth(corners, method, of_corners);
                                });

@@ -286,8 +286,9 @@ std::shared_ptr<const Topology> Topology::without_midside() const {
 
 std::shared_ptr<const Topology> Topology::reordered(
     const std::vector<NodeIndex>& node_order, const std::vector<CellIndex>& cell_order) const {
+  const std::size_t n_kept = node_order.size();
   std::vector<NodeIndex> new_node(n_nodes());
-  for (NodeIndex i = 0; i < n_nodes(); ++i) new_node[node_order[i]] = i;
+  for (NodeIndex i = 0; i < n_kept; ++i) new_node[node_order[i]] = i;
   std::shared_ptr<Topology> result(new Topology);
   result->dim_ = dim_;
   constexpr std::size_t grain = 4096;
@@ -303,9 +304,9 @@ std::shared_ptr<const Topology> Topology::reordered(
   });
   result->cells_ = {std::move(offsets), std::move(entries)};
   result->n_facets_ = n_facets_;
-  result->on_boundary_.resize(n_nodes());
-  std::vector<FixedReasons> reasons(n_nodes());
-  for (NodeIndex i = 0; i < n_nodes(); ++i) {
+  result->on_boundary_.resize(n_kept);
+  std::vector<FixedReasons> reasons(n_kept);
+  for (NodeIndex i = 0; i < n_kept; ++i) {
     result->on_boundary_[i] = on_boundary_[node_order[i]];
     reasons[i] = fixed_[node_order[i]];
   }

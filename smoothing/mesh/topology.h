@@ -96,6 +96,7 @@ class Topology {
 
   /// Returns the same mesh in another order, without labels. Node i and cell c of the result are
   /// node node_order[i] and cell cell_order[c] of this one. Cells keep the order of their nodes.
+  /// node_order may leave out nodes that no cell uses.
   std::shared_ptr<const Topology> reordered(const std::vector<NodeIndex>& node_order,
                                             const std::vector<CellIndex>& cell_order) const;
 

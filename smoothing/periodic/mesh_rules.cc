@@ -17,7 +17,7 @@ SmoothingResult smooth_by_rules(Mesh<dim>& mesh, Method<dim>& method, const Mesh
                                 const std::type_identity_t<Observer<dim>>& observer) {
   if (!moves_partners(mesh.topology(), rules)) return smooth(mesh, method, observer);
   if (mesh.topology().midside())
-    return smooth_second_order(mesh, method.floor != 0, observer,
+    return smooth_second_order(mesh, CornerNumbers::of_mesh, method.floor != 0, observer,
                                [&](Mesh<dim>& corners, const Observer<dim>& of_corners) {
                                  return smooth_by_rules(corners, method, rules, of_corners);
                                });

@@ -105,6 +105,22 @@ class CellPoints {
     for (std::size_t k = 0; k < n_; ++k) points_[k] = point_of(map(vector_of(points_[k])));
   }
 
+  /// True for triangles and tetrahedra whose midside nodes are in the middle of straight edges, up
+  /// to the rounding of decimal numbers.
+  bool is_straight_simplex() const {
+    constexpr std::size_t n_corners = dim + 1, n_edges = dim * (dim + 1) / 2;
+    constexpr double rounding = 1e-24;  // of squares
+    if (n_ != n_corners + n_edges) return false;
+    std::size_t k = n_corners;
+    bool is_straight = true;
+    for_each_edge(dim, n_corners, [&](std::size_t a, std::size_t b) {
+      const Point<dim> offset = points_[k++] - 0.5 * (points_[a] + points_[b]);
+      is_straight =
+          is_straight && offset.squaredNorm() <= rounding * (points_[b] - points_[a]).squaredNorm();
+    });
+    return is_straight;
+  }
+
   operator std::span<const Point<dim>>() const { return {points_.data(), n_}; }
 
  private:
@@ -162,20 +178,29 @@ double curved_cell_size(std::span<const Point<dim>> points) {
   return JacobianPolynomial<dim>(points).cell_size();
 }
 
+template <int dim>
+double curved_mean_ratio(const Mesh<dim>& mesh, CellIndex cell) {
+  CellPoints<dim> points(mesh, cell);
+  if (mesh.targets() == nullptr) {
+    // Offsets of midside nodes by rounding errors change det J by less than it is.
+    constexpr double well_above_rounding = 1e-3;
+    if (points.is_straight_simplex())
+      if (const double q = cell_mean_ratio(mesh, cell); q > well_above_rounding) return q;
+    return curved_mean_ratio<dim>(points);
+  }
+  points.map_to_regular(*mesh.targets(), cell);
+  double q = curved_mean_ratio<dim>(points);
+  with_target_corners(mesh, cell, coordinates_at(mesh.coordinates().data()), [&](auto corners) {
+    q = within_size_bound<dim>(mesh.targets(), corners, q);
+  });
+  return q;
+}
+
 template <int dim, int spacedim>
 std::vector<double> curved_mean_ratios(const Mesh<dim, spacedim>& mesh) {
   return for_cells(mesh.topology(), [&](CellIndex c) {
     if constexpr (dim == spacedim)
-      if (is_curved(mesh, c)) {
-        CellPoints<dim> points(mesh, c);
-        if (mesh.targets() == nullptr) return curved_mean_ratio<dim>(points);
-        points.map_to_regular(*mesh.targets(), c);
-        double q = curved_mean_ratio<dim>(points);
-        with_target_corners(mesh, c, coordinates_at(mesh.coordinates().data()), [&](auto corners) {
-          q = within_size_bound<dim>(mesh.targets(), corners, q);
-        });
-        return q;
-      }
+      if (is_curved(mesh, c)) return curved_mean_ratio(mesh, c);
     return cell_mean_ratio(mesh, c);
   });
 }
@@ -201,6 +226,7 @@ std::vector<double> curved_cell_sizes(const Mesh<dim>& mesh) {
 
 #define SMOOTHFEM_INSTANTIATE(DIM)                                         \
   template double curved_mean_ratio(std::span<const Point<DIM>>);          \
+  template double curved_mean_ratio(const Mesh<DIM>&, CellIndex);          \
   template Interval scaled_jacobian(std::span<const Point<DIM>>, double);  \
   template double curved_cell_size(std::span<const Point<DIM>>);           \
   template std::vector<double> curved_mean_ratios(const Mesh<DIM>&);       \

@@ -32,6 +32,10 @@ Interval scaled_jacobian(std::span<const Point<dim>> points, double tolerance);
 template <int dim>
 double curved_cell_size(std::span<const Point<dim>> points);
 
+/// Returns the same for a cell of a mesh, relative to its target if the mesh has some.
+template <int dim>
+double curved_mean_ratio(const Mesh<dim>& mesh, CellIndex cell);
+
 /// Returns the mean ratio of every cell, in the order of the cells: that of the curved cell if it
 /// has midside nodes, otherwise cell_mean_ratio(). Both are relative to the targets if the mesh has
 /// some. In surface meshes all cells count as straight ones. Does not depend on threads.

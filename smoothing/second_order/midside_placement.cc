@@ -73,7 +73,9 @@ std::vector<CellIndex> bad_cells(std::span<const double> quality, double floor) 
 
 template <int dim>
 MidsidePlacement<dim>::MidsidePlacement(const Mesh<dim>& initial)
-    : initial_(initial.copied_coordinates()), topology_(initial.shared_topology()) {
+    : initial_(initial.copied_coordinates()),
+      topology_(initial.shared_topology()),
+      without_midside_(topology_->without_midside()) {
   const Topology& topology = *topology_;
   std::vector<bool> is_known(initial.n_nodes(), false);
   std::vector<MiddleNode> of_cells;
@@ -103,7 +105,7 @@ MidsidePlacement<dim>::MidsidePlacement(const Mesh<dim>& initial)
 template <int dim>
 void MidsidePlacement<dim>::find_bent_nodes() {
   constexpr double rounding = 1e-9;  // of coordinates in files, relative to the edge
-  is_bent_.assign(initial_.size(), false);
+  is_bent_.assign(initial_.size(), 0);
   const Points x(initial_);
   for_each_node([&](const auto& node) {
     is_bent_[node.node] =
@@ -186,6 +188,30 @@ void MidsidePlacement<dim>::place_all(Mesh<dim>& mesh,
 }
 
 template <int dim>
+std::vector<double> MidsidePlacement<dim>::qualities(
+    const Mesh<dim>& mesh, const std::vector<std::uint8_t>& is_bent) const {
+  if (mesh.targets()) return curved_mean_ratios(mesh);
+  // Straight simplices have the quality of their corners. Offsets by rounding errors change det J
+  // by less than it is in such cells.
+  constexpr double well_above_rounding = 1e-3;
+  std::vector<double> quality;
+  compute_cell_mean_ratios(
+      Mesh<dim>::from_finite_points(without_midside_, mesh.copied_coordinates()), quality);
+  parallel_for_ranges(mesh.n_cells(), grain, [&](std::size_t first, std::size_t last) {
+    for (auto c = static_cast<CellIndex>(first); c < last; ++c) {
+      const auto midside = topology_->midside_nodes(c);
+      const bool is_straight_simplex =
+          topology_->cell_nodes(c).size() == dim + 1 &&
+          std::none_of(midside.begin(), midside.end(),
+                       [&](NodeIndex node) { return is_bent[node] != 0; });
+      if (!midside.empty() && !(is_straight_simplex && quality[c] > well_above_rounding))
+        quality[c] = curved_mean_ratio(mesh, c);
+    }
+  });
+  return quality;
+}
+
+template <int dim>
 MidsideReport MidsidePlacement<dim>::place(Mesh<dim>& mesh, double floor,
                                            std::vector<double>& cell_quality) const {
   constexpr std::uint8_t whole = 4;
@@ -194,7 +220,11 @@ MidsideReport MidsidePlacement<dim>::place(Mesh<dim>& mesh, double floor,
   const auto x = mesh.coordinates();
   while (true) {
     place_all(mesh, quarters);
-    cell_quality = curved_mean_ratios(mesh);
+    auto is_bent = is_bent_;
+    for_each_node([&](const auto& node) {
+      if (has_moved(node, x)) is_bent[node.node] = quarters[node.node] > 0;
+    });
+    cell_quality = qualities(mesh, is_bent);
     bool has_changed = false;
     for (const CellIndex c : bad_cells(cell_quality, floor)) {
       bool can_bend = false;
@@ -221,27 +251,25 @@ MidsideReport MidsidePlacement<dim>::place(Mesh<dim>& mesh, double floor,
 }
 
 template <int dim>
-MidsideReport MidsidePlacement<dim>::repair(Mesh<dim>& mesh) {
+MidsideReport MidsidePlacement<dim>::repair(Mesh<dim>& mesh, std::vector<double>& cell_quality) {
   constexpr std::uint8_t whole = 8;
-  const auto linear = Mesh<dim>(topology_->without_midside(), initial_);
-  const auto of_corners = cell_mean_ratios(linear);
+  MidsideReport report;
+  cell_quality = qualities(mesh, is_bent_);
+  auto bad = bad_cells(cell_quality, 0.0);
+  if (bad.empty()) return report;
+  const auto of_corners = cell_mean_ratios(Mesh<dim>(without_midside_, initial_));
+  std::erase_if(bad, [&](CellIndex c) { return !(of_corners[c] > 0.0); });
+  report.n_repaired = bad.size();
   std::vector<std::uint8_t> eighths(mesh.n_nodes(), whole);
   const auto x = mesh.coordinates();
-  MidsideReport report;
-  bool is_first = true;
-  while (true) {
-    const auto quality = curved_mean_ratios(mesh);
-    bool has_changed = false;
-    for (const CellIndex c : bad_cells(quality, 0.0)) {
-      if (!(of_corners[c] > 0.0)) continue;
-      report.n_repaired += is_first;
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (const CellIndex c : bad)
       for (const NodeIndex node : topology_->midside_nodes(c))
         if (is_bent_[node] && eighths[node] > 0) {
           --eighths[node];
           has_changed = true;
         }
-    }
-    is_first = false;
     if (!has_changed) break;
     for_each_node([&](const auto& node) {
       const double part = static_cast<double>(eighths[node.node]) / whole;
@@ -250,17 +278,19 @@ MidsideReport MidsidePlacement<dim>::repair(Mesh<dim>& mesh) {
         x[node.node] = place + part * (initial_[node.node] - place);
       }
     });
+    cell_quality = curved_mean_ratios(mesh);
+    bad = bad_cells(cell_quality, 0.0);
+    std::erase_if(bad, [&](CellIndex c) { return !(of_corners[c] > 0.0); });
   }
+  report.n_repaired -= bad.size();
   const auto on_boundary = nodes_on_facets();
   for_each_node([&](const auto& node) {
     const bool is_relaxed = eighths[node.node] < whole;
     report.n_relaxed += is_relaxed;
     report.n_relaxed_on_boundary += is_relaxed && on_boundary[node.node];
   });
-  if (report.n_relaxed > 0) {
-    initial_.assign(x.begin(), x.end());
-    find_bent_nodes();
-  }
+  initial_.assign(x.begin(), x.end());
+  find_bent_nodes();
   return report;
 }
 

@@ -27,10 +27,14 @@ class MidsidePlacement {
   /// initial: a mesh of second order, whose midside nodes define the curves.
   explicit MidsidePlacement(const Mesh<dim>& initial);
 
+  /// Returns the topology of the initial mesh without its midside nodes.
+  const std::shared_ptr<const Topology>& without_midside() const { return without_midside_; }
+
   /// Moves midside nodes of cells that are not proven to be valid, although their corners are
   /// valid, towards their straight places, an eighth at a time, until the cells are valid. The
-  /// result becomes the initial mesh, and `mesh` gets its nodes.
-  MidsideReport repair(Mesh<dim>& mesh);
+  /// result becomes the initial mesh, and `mesh` gets its nodes. cell_quality: gets the mean ratio
+  /// of each curved cell of the result.
+  MidsideReport repair(Mesh<dim>& mesh, std::vector<double>& cell_quality);
 
   /// Places the midside nodes of a mesh of the same topology. floor: least mean ratio of cells, not
   /// above that of the initial mesh. cell_quality: gets the mean ratio of each curved cell. If the
@@ -73,15 +77,19 @@ class MidsidePlacement {
   Point<dim> bent(const Node& node, Points x, double part) const;
   /// Places all nodes. quarters: by node, the part of the initial curvature that it keeps.
   void find_bent_nodes();
+  /// Returns the mean ratio of each curved cell. is_bent: flags of midside nodes that are not at
+  /// their straight places.
+  std::vector<double> qualities(const Mesh<dim>& mesh,
+                                const std::vector<std::uint8_t>& is_bent) const;
   /// Returns flags of the nodes on the boundary and on interfaces.
   std::vector<bool> nodes_on_facets() const;
   void place_all(Mesh<dim>& mesh, std::span<const std::uint8_t> quarters) const;
 
   std::vector<Point<dim>> initial_;
-  std::shared_ptr<const Topology> topology_;
+  std::shared_ptr<const Topology> topology_, without_midside_;
   std::vector<EdgeNode> edges_;
-  std::vector<MiddleNode> middles_;  ///< of faces, then of cells
-  std::vector<bool> is_bent_;        ///< by node: is not at its straight place
+  std::vector<MiddleNode> middles_;    ///< of faces, then of cells
+  std::vector<std::uint8_t> is_bent_;  ///< by node: is not at its straight place
 };
 
 }  // namespace smoothfem

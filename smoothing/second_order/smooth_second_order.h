@@ -8,14 +8,21 @@
 
 namespace smoothfem {
 
-/// Smooths a mesh of second order: the method moves its corners, and midside nodes follow
-/// (midside_placement.h). `smooth_corners` smooths a mesh of the same nodes and linear cells. The
-/// observer gets meshes whose midside nodes are placed. Qualities in records and in the result are
-/// those of curved cells. If the initial mesh is valid, or can be repaired, so is the result, for
-/// every method. Throws InputError for nodes that slide.
+/// Numbers of nodes in the mesh of the corners.
+enum class CornerNumbers {
+  of_mesh,  ///< those of the mesh, whose midside nodes no cell uses; with labels
+  dense     ///< of the corners alone, without labels: faster
+};
+
+/// Smooths a mesh of second order: `smooth_corners` moves the corners in a mesh of linear cells,
+/// and midside nodes follow (midside_placement.h). The observer gets meshes whose midside nodes are
+/// placed. Qualities in records and in the result are those of curved cells. keeps_floor: no cell
+/// becomes worse than the worst one before. If the initial mesh is valid, or can be repaired, so is
+/// the result, for every method. Throws InputError for nodes that slide.
 template <int dim>
 SmoothingResult smooth_second_order(
-    Mesh<dim>& mesh, bool keeps_floor, const std::type_identity_t<Observer<dim>>& observer,
+    Mesh<dim>& mesh, CornerNumbers numbers, bool keeps_floor,
+    const std::type_identity_t<Observer<dim>>& observer,
     const std::type_identity_t<std::function<SmoothingResult(Mesh<dim>&, const Observer<dim>&)>>&
         smooth_corners);
 
