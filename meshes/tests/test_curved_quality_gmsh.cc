@@ -144,10 +144,10 @@ TEST_P(GmshCurvedCells, HaveBoundsAroundDeterminantsOfGmsh) {
   });
 }
 
-/// The plugin's view has min det J / max det J of each element. Not for pyramids, where Gmsh 4.8
-/// reports 0 for cells with positive determinants.
+/// The plugin's view has min det J / max det J of each element.
 TEST_P(GmshCurvedCells, HaveTheRatioOfDeterminantsOfGmsh) {
-  if (GetParam().n_corners == 5) return;
+  if (GetParam().n_corners == 5)
+    GTEST_SKIP() << "Gmsh 4.8 reports 0 for pyramids with positive determinants";
   const GmshSession session;
   const GmshElement element(GetParam());
   with_dimension(GetParam().dim, [&]<int dim>() {

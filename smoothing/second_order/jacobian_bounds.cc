@@ -36,6 +36,7 @@ Interval bound_minimum(const BernsteinSpace& space, Coefficients whole, const Su
   struct Part {
     double lower;
     std::size_t first;  ///< position of its coefficients
+    /// The heap's first part has the lowest bound.
     bool operator<(const Part& other) const { return lower > other.lower; }
   };
   std::vector<Part> heap{{bounds.lower, 0}};

@@ -67,8 +67,8 @@ class ShapeFunctions {
   /// Returns the reference coordinates of the nodes, in the order of a row.
   const std::vector<Point<3>>& nodes() const { return nodes_; }
 
-  /// Returns the values of all functions at a point of the reference domain, correctly rounded but
-  /// for a few units of the last place of 1.
+  /// Returns the values of all functions at a point of the reference domain. Computed in a more
+  /// precise type and rounded once.
   std::vector<double> values(const Point<3>& x) const;
   /// Returns their gradients. At the apex of a pyramid these depend on the direction from there;
   /// the result is their limit along the line from the middle of the base.
