@@ -151,6 +151,7 @@ template <int dim, int spacedim>
 double distort_within(Mesh<dim, spacedim>& mesh, double radius,
                       const DistortionParameters& parameters) {
   require_in_range(parameters);
+  require_linear(mesh.topology(), "distortion");
   require_valid(mesh);
   Distortion<dim, spacedim> distortion(mesh, parameters);
   const double q_mean = distortion.apply(radius);
@@ -161,6 +162,7 @@ double distort_within(Mesh<dim, spacedim>& mesh, double radius,
 template <int dim, int spacedim>
 DistortionResult distort(Mesh<dim, spacedim>& mesh, const DistortionParameters& parameters) {
   require_in_range(parameters);
+  require_linear(mesh.topology(), "distortion");
   require_valid(mesh);
   const double target = parameters.target_q_mean;
   const double q_initial = mesh_quality(mesh).q_mean;

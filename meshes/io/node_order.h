@@ -127,6 +127,9 @@ inline constexpr NodeOrder tetrahedron_10 =
     node_order(3, 4, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}});
 inline constexpr NodeOrder pyramid_13 =
     node_order(3, 5, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}});
+inline constexpr std::size_t pyramid_14_corners = 5;
+inline constexpr NodeOrder pyramid_14 =
+    with_middles(pyramid_13, pyramid_14_corners, {{0, 2}}, false);
 inline constexpr NodeOrder prism_15 =
     node_order(3, 6, {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}});
 inline constexpr NodeOrder hexahedron_20 = node_order(3, 8,
@@ -154,13 +157,13 @@ struct FormatElement {
 /// Returns the first type of a number with so many nodes (0: any), or the one of an element; null
 /// if there is none.
 constexpr const FormatElement* find_type(std::span<const FormatElement> types, int number,
-                                           std::size_t n_nodes = 0) {
+                                         std::size_t n_nodes = 0) {
   for (const FormatElement& type : types)
     if (type.number == number && (n_nodes == 0 || type.order.size == n_nodes)) return &type;
   return nullptr;
 }
 constexpr const FormatElement* find_type(std::span<const FormatElement> types, int dimension,
-                                           std::size_t n_corners, std::size_t n_midside) {
+                                         std::size_t n_corners, std::size_t n_midside) {
   for (const FormatElement& type : types)
     if (type.dimension == dimension && type.n_corners == n_corners &&
         type.order.size == n_corners + n_midside)

@@ -6,6 +6,8 @@
 #include "meshes/preparation/prepare_mesh.h"
 #include "smoothing/base/option_text.h"
 #include "smoothing/optimization/untangle.h"
+#include "smoothing/quality/mesh_quality.h"
+#include "smoothing/second_order/raise_order.h"
 
 namespace smoothfem {
 
@@ -68,6 +70,8 @@ void untangle_as_asked(const MeshOptions& options, const Method<dim, spacedim>& 
                      "surface meshes cannot be untangled; smooth it without " +
                      option_text("untangle"));
   } else {
+    if (mesh.topology().midside() && mesh_quality(with_linear_cells(mesh)).n_invalid == 0)
+      return;  // smoothing repairs curved cells of valid corners
     const UntangleResult result = untangle(mesh);
     if (!result.valid) refuse(options, name, mesh, result);
     if (result.n_invalid_before > 0) {

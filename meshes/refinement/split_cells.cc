@@ -229,6 +229,7 @@ class Splitting {
 
 template <int dim>
 Mesh<dim> with_split_cells(const Mesh<dim>& mesh) {
+  require_linear(mesh.topology(), "splitting");
   return Splitting<dim>(mesh).split();
 }
 template Mesh<2> with_split_cells(const Mesh<2>&);

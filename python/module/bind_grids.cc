@@ -6,6 +6,7 @@
 #include "meshes/io/node_order.h"
 #include "meshes/io/vtk/vtk_files.h"
 #include "meshes/io/vtk/vtk_grid.h"
+#include "meshes/io/vtk/vtk_second_order.h"
 #include "python/module/bind.h"
 #include "python/module/python_mesh.h"
 
@@ -123,13 +124,22 @@ py::dict to_grid(const PythonMesh& mesh, bool vtk_wedges) {
     std::vector<std::int32_t> tags;
     bool has_tags = false;
     for (const std::uint32_t e : order) {
-      const auto row = elements.nodes(e);
       const int dim = elements.dimension(e);
-      const bool turns = vtk_wedges && dim == 3 && row.size() == vtk_wedge.size();
+      const FormatElement* second_order =
+          elements.midside(e).empty()
+              ? nullptr
+              : find_type(vtk_second_order_types, dim, elements.nodes(e).size(),
+                          elements.midside(e).size());
+      if (!elements.midside(e).empty() && !second_order)
+        throw InputError(
+            "VTK has no pyramid with 14 nodes; use mesh.points and mesh.midside_nodes");
+      const auto row = elements.row(e, second_order ? &second_order->order : nullptr);
+      const bool turns = vtk_wedges && !second_order && dim == 3 && row.size() == vtk_wedge.size();
       for (std::size_t k = 0; k < row.size(); ++k) nodes.push_back(row[turns ? vtk_wedge[k] : k]);
       offsets.push_back(static_cast<std::int64_t>(nodes.size()));
       constexpr int vtk_vertex = 1, vtk_line = 3;
-      types.push_back(static_cast<std::uint8_t>(dim == 0 ? vtk_vertex
+      types.push_back(static_cast<std::uint8_t>(second_order ? second_order->number
+                                                : dim == 0   ? vtk_vertex
                                                 : dim == 1
                                                     ? vtk_line
                                                     : vtk_type(element_type(dim, row.size()))));
@@ -161,7 +171,34 @@ py::dict to_grid(const PythonMesh& mesh, bool vtk_wedges) {
 
 }  // namespace
 
+namespace {
+
+/// Returns for each cell of second order (meshio's name, VTK's number or 0, dimension, number of
+/// corners, positions of its nodes in a row of midside_nodes.h).
+py::list second_order_types() {
+  py::list types;
+  const auto add = [&](int number, int dim, std::size_t n_corners, const NodeOrder& order) {
+    constexpr const char* of_planes[] = {"", "", "line", "triangle", "quad"};
+    constexpr const char* in_space[] = {"",        "",      "", "",          "tetra",
+                                        "pyramid", "wedge", "", "hexahedron"};
+    const std::string name =
+        (dim == 3 ? in_space : of_planes)[n_corners] + std::to_string(order.size);
+    types.append(py::make_tuple(
+        name, number, dim, n_corners,
+        py::cast(std::vector<int>(order.positions.begin(), order.positions.begin() + order.size))));
+  };
+  constexpr int first_lagrange_type = 68;
+  for (const FormatElement& type : vtk_second_order_types)
+    if (type.number < first_lagrange_type)
+      add(type.number, type.dimension, type.n_corners, type.order);
+  add(0, 3, pyramid_14_corners, pyramid_14);
+  return types;
+}
+
+}  // namespace
+
 void bind_grids(py::module_& module) {
+  module.def("second_order_types", &second_order_types);
   module.def("from_grid", &from_grid);
   module.def("to_grid", &to_grid);
 }

@@ -61,11 +61,21 @@ std::vector<Point<spacedim>> points_of(const Coordinates& array) {
 
 template <int dim>
 AnyMesh mesh_of(const Coordinates& points, CompressedRows<NodeIndex> cells,
-                std::optional<std::vector<bool>> fixed) {
+                std::optional<std::vector<bool>> fixed, MeshLabels labels) {
   const auto n_nodes = static_cast<std::size_t>(points.shape(0));
-  return Mesh<dim>(
-      std::make_shared<const Topology>(dim, n_nodes, std::move(cells), std::move(fixed)),
-      points_of<dim>(points));
+  return Mesh<dim>(std::make_shared<const Topology>(dim, n_nodes, std::move(cells),
+                                                    std::move(fixed), std::move(labels)),
+                   points_of<dim>(points));
+}
+
+/// midside: rows of midside nodes; None for linear cells.
+MeshLabels labels_of(const py::object& midside) {
+  MeshLabels labels;
+  if (midside.is_none()) return labels;
+  MidsideNodes nodes;
+  nodes.of_cells = rows_of(midside);
+  labels.midside = std::make_shared<const MidsideNodes>(std::move(nodes));
+  return labels;
 }
 
 bool is_flat(const std::vector<Point<3>>& points) {
@@ -92,8 +102,10 @@ std::optional<int> dimension_of(const py::object& dim) {
 }
 
 /// cells: rows. dim: as users give it; dim_of_types: that of the types that users name; or None.
+/// midside: rows of midside nodes, or None.
 PythonMesh make_mesh(const py::object& given, const py::object& rows_given, const py::object& fixed,
-                     const py::object& dim, const py::object& dim_of_types) {
+                     const py::object& dim, const py::object& dim_of_types,
+                     const py::object& midside) {
   const auto points = Coordinates::ensure(given);
   if (!points || points.ndim() != 2 || (points.shape(1) != 2 && points.shape(1) != 3)) {
     PyErr_Clear();
@@ -112,14 +124,18 @@ PythonMesh make_mesh(const py::object& given, const py::object& rows_given, cons
   auto rows = rows_of(rows_given);
   auto flags = node_flags("fixed", fixed, static_cast<std::size_t>(points.shape(0)));
   if (cell_dim == 3 && !asked && !of_types) require_clear_dimension(rows, points_of<3>(points));
-  if (cell_dim == 3) return PythonMesh(mesh_of<3>(points, std::move(rows), std::move(flags)));
-  if (spacedim == 2) return PythonMesh(mesh_of<2>(points, std::move(rows), std::move(flags)));
+  MeshLabels labels = labels_of(midside);
+  if (cell_dim == 3)
+    return PythonMesh(mesh_of<3>(points, std::move(rows), std::move(flags), std::move(labels)));
+  if (spacedim == 2)
+    return PythonMesh(mesh_of<2>(points, std::move(rows), std::move(flags), std::move(labels)));
   // meshio and Gmsh give planar meshes a third coordinate.
   if (of_types && !asked && is_flat(points_of<3>(points)))
     return PythonMesh(
         mesh_of<2>(Coordinates(points[py::make_tuple(py::ellipsis(), py::slice(0, 2, 1))]),
-                   std::move(rows), std::move(flags)));
-  return PythonMesh(make_surface_mesh(std::move(rows), points_of<3>(points), {}, std::move(flags)));
+                   std::move(rows), std::move(flags), std::move(labels)));
+  return PythonMesh(make_surface_mesh(std::move(rows), points_of<3>(points), std::move(labels),
+                                      std::move(flags)));
 }
 
 PythonMesh copied(const PythonMesh& mesh) {
@@ -230,6 +246,16 @@ void bind_mesh(py::module_& module) {
           "cells_dict", [](const PythonMesh& m) { return m.arrays().cells_dict().attr("copy")(); },
           "As blocks, with meshio's names of types: 'triangle', 'quad', 'polygon5', 'tetra', "
           "'pyramid', 'wedge', 'hexahedron'.")
+      .def_property_readonly(
+          "order", [](const PythonMesh& m) { return m.arrays().topology().midside() ? 2 : 1; },
+          "2 if cells have midside nodes, otherwise 1.")
+      .def_property_readonly(
+          "midside_nodes",
+          [](const PythonMesh& m) { return m.arrays().midside_nodes().attr("copy")(); },
+          "Other nodes of the cells than their corners, a row for each row of cells_dict; empty "
+          "for "
+          "linear meshes. Both rows together are those of meshio and VTK: 'tetra' and its 6 nodes "
+          "make 'tetra10'.")
       .def_property_readonly(
           "edges", [](const PythonMesh& m) { return m.arrays().edges(); },
           "The ends of each edge, (n_edges, 2), ascending; read-only.")

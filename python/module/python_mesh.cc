@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include "meshes/io/vtk/vtk_second_order.h"
+
 namespace smoothfem {
 
 namespace {
@@ -60,6 +62,15 @@ std::string meshio_name(int dim, std::size_t n_nodes) {
   }
 }
 
+/// Returns the order of meshio, which is VTK's but for a pyramid that VTK does not have; null for
+/// linear cells.
+const NodeOrder* meshio_order(int dim, std::size_t n_corners, std::size_t n_midside) {
+  if (n_midside == 0) return nullptr;
+  if (n_corners == pyramid_14_corners && n_corners + n_midside == pyramid_14.size)
+    return &pyramid_14;
+  return &find_type(vtk_second_order_types, dim, n_corners, n_midside)->order;
+}
+
 /// Name of each type of cells -> array, shorter cells first.
 using NameOf = std::string (*)(int dim, std::size_t n_nodes);
 py::dict by_type(const CompressedRows<NodeIndex>& rows, int dim, NameOf name_of) {
@@ -107,6 +118,34 @@ const py::dict& TopologyArrays::blocks() {
 const py::dict& TopologyArrays::cells_dict() {
   if (cells_dict_.empty()) cells_dict_ = cells_by_type(&meshio_name);
   return cells_dict_;
+}
+
+const py::dict& TopologyArrays::midside_nodes() {
+  if (!midside_nodes_.empty() || !topology_->midside()) return midside_nodes_;
+  const int dim = topology_->dimension();
+  std::map<std::size_t, CompressedRows<NodeIndex>> by_corners;
+  std::vector<NodeIndex> row;
+  for (CellIndex c = 0; c < topology_->n_cells(); ++c) {
+    const auto corners = topology_->cell_nodes(c), midside = topology_->midside_nodes(c);
+    row.assign(corners.begin(), corners.end());
+    row.insert(row.end(), midside.begin(), midside.end());
+    if (const NodeOrder* order = meshio_order(dim, corners.size(), midside.size()))
+      order->to_file(row);
+    by_corners[corners.size()].append(std::span(row).subspan(corners.size()));
+  }
+  for (const auto& [n_corners, rows] : by_corners) {
+    const auto name = meshio_name(dim, n_corners);
+    if (const std::size_t size = common_cell_size(rows); size > 0) {
+      midside_nodes_[name.c_str()] =
+          copy_of(rows.entries(), {signed_size(rows.size()), signed_size(size)});
+      continue;
+    }
+    py::tuple arrays(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      arrays[i] = copy_of({rows[i].begin(), rows[i].end()}, {signed_size(rows[i].size())});
+    midside_nodes_[name.c_str()] = arrays;
+  }
+  return midside_nodes_;
 }
 
 const py::array& TopologyArrays::edges() {

@@ -40,6 +40,9 @@ class TopologyArrays {
   const py::dict& blocks();
   /// As blocks, with meshio's names.
   const py::dict& cells_dict();
+  /// By the types of cells_dict(): midside nodes in the order of meshio and VTK, (n, k), or a tuple
+  /// of arrays if k differs. Empty for linear meshes.
+  const py::dict& midside_nodes();
   const py::array& edges();            ///< (n, 2)
   const py::tuple& node_neighbours();  ///< offsets and nodes
   const py::dict& boundary_facets();   ///< by type, with meshio's names
@@ -51,7 +54,7 @@ class TopologyArrays {
 
   std::shared_ptr<const Topology> topology_;
   py::object cells_;
-  py::dict blocks_, cells_dict_, boundary_facets_;
+  py::dict blocks_, cells_dict_, midside_nodes_, boundary_facets_;
   std::optional<py::array> edges_;
   std::optional<py::tuple> node_neighbours_;
   py::array free_, fixed_;

@@ -9,6 +9,7 @@ from . import _core
 
 # Names of meshio and VTK's numbers of cell types.
 _TYPES = {"vertex": 1, "line": 3, "triangle": 5, "polygon": 7, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13, "pyramid": 14}
+_TYPES |= {name: number for name, number, *_ in _core.second_order_types() if number}
 _NAMES = {number: name for name, number in _TYPES.items()}
 # meshio writes .msh files with the groups of this array.
 _GMSH_TAGS, _OWN_TAGS = "gmsh:physical", "physical_tag"
@@ -18,7 +19,7 @@ def from_meshio(mesh, *, tag_field=""):
     """Makes a Mesh of a meshio.Mesh: its cells, tags of cells and of facets, names of groups, point and cell data.
 
     tag_field: name of the cell data with the tags (default: the first known one, such as "gmsh:physical"). What a Mesh cannot hold, for
-    example sets, is left out with a UserWarning. Raises InputError for cells with nodes other than their corners, and as Mesh does.
+    example sets, is left out with a UserWarning. Raises InputError for cells of an order above 2, and as Mesh does.
     """
     rows = [np.asarray(block.data) if isinstance(block.data, np.ndarray) else list(block.data) for block in mesh.cells]
     types = [_type(block.type) for block in mesh.cells]
@@ -49,7 +50,7 @@ def to_meshio(mesh):
 def from_pyvista(grid, *, tag_field=""):
     """Makes a Mesh of a PyVista grid or surface: its cells, tags, point and cell data.
 
-    tag_field: as in from_meshio(). Raises InputError for cells with nodes other than their corners, and as Mesh does.
+    tag_field: as in from_meshio(). Raises InputError for cells of an order above 2, and as Mesh does.
     """
     if hasattr(grid, "cast_to_unstructured_grid"):
         grid = grid.cast_to_unstructured_grid()
@@ -82,7 +83,7 @@ def to_pyvista(mesh):
 def _type(name):
     known = name.rstrip("0123456789") if name.startswith("polygon") else name
     if known not in _TYPES:
-        raise _core.InputError(f"meshio: cells of the type '{name}' cannot be taken; take cells with corners only: {', '.join(_TYPES)}")
+        raise _core.InputError(f"meshio: cells of the type '{name}' cannot be taken; take cells of order 1 or 2: {', '.join(_TYPES)}")
     return _TYPES[known]
 
 

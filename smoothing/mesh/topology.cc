@@ -321,6 +321,14 @@ std::shared_ptr<const Topology> Topology::reordered(
   return result;
 }
 
+void require_linear(const Topology& topology, const std::string& what) {
+  if (topology.midside())
+    throw InputError(
+        what +
+        " is for linear cells only, but the mesh has cells of second order; save it with "
+        "linear cells");
+}
+
 CompressedRows<NodeIndex> nodes_by_node(const Topology& topology,
                                         const CompressedRows<CellIndex>& node_cells) {
   const auto simplex_size = static_cast<std::size_t>(topology.dimension() + 1);

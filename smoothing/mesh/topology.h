@@ -126,6 +126,9 @@ class Topology {
   std::vector<CellBlock> blocks_;
 };
 
+/// Throws InputError if a mesh has cells of second order. what: for example "distortion".
+void require_linear(const Topology& topology, const std::string& what);
+
 /// Returns for each node the nodes joined to it by an edge, ascending. node_cells: the cells of
 /// each node.
 CompressedRows<NodeIndex> nodes_by_node(const Topology& topology,

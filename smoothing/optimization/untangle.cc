@@ -91,6 +91,7 @@ UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters) {
   UntangleResult result;
   result.invalid_cells = invalid_cells(cell_mean_ratios(mesh));
   result.n_invalid_before = result.invalid_cells.size();
+  if (result.n_invalid_before > 0) require_linear(mesh.topology(), "untangling");
   for (const CellIndex c : result.invalid_cells)
     if (!mesh.topology().has_free_node(c)) result.fully_fixed_cells.push_back(c);
   if (!result.invalid_cells.empty() && result.fully_fixed_cells.empty()) {

@@ -11,6 +11,7 @@
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/target_corners.h"
 #include "smoothing/second_order/curved_quality.h"
+#include "smoothing/second_order/raise_order.h"
 
 namespace smoothfem {
 
@@ -217,7 +218,13 @@ void require_valid(const Mesh<dim, spacedim>& mesh, const std::string& path,
     message << " is " << (signed_cell_size(mesh, c) < 0.0 ? W::inverted : W::invalid);
   }
   if (invalid.size() > n_named) message << ", ...";
-  message << "; " << advice<W>(n_inverted, mesh.n_cells());
+  const bool are_corners_valid =
+      topology.midside() && mesh_quality(with_linear_cells(mesh)).n_invalid == 0;
+  message << "; "
+          << (are_corners_valid
+                  ? "their corners are valid, but midside nodes bend them too much: 'smoothfem "
+                    "smooth' moves these towards their straight places"
+                  : advice<W>(n_inverted, mesh.n_cells()));
   throw InputError(message.str());
 }
 

@@ -13,6 +13,7 @@
 #include "smoothing/loop/preset.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/quality/cell_targets.h"
+#include "smoothing/second_order/raise_order.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/mesh_notes.h"
 #include "studies/cli/smooth_notes.h"
@@ -103,7 +104,8 @@ void require_valid_if_needed(const SmoothArguments& arguments, const Method<dim,
   const bool needs_valid =
       std::any_of(method.stages.begin(), method.stages.end(),
                   [](const auto& stage) { return stage->traits().needs_valid_mesh; });
-  if (needs_valid && !arguments.untangle) require_valid(mesh, arguments.in, cell_lines);
+  if (needs_valid && !arguments.untangle)  // curved cells of valid corners are repaired
+    require_valid(with_linear_cells(mesh), arguments.in, cell_lines);
 }
 
 /// Smooths a mesh. The method and its tables are freed before the mesh is written: writing needs
