@@ -293,7 +293,7 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
 
 namespace {
 
-/// Returns u_h at the local nodes; NaN at those that no cell uses. u_h: at the dofs. Where curved
+/// Returns u_h at the local nodes; NaN at nodes that no cell uses. u_h: at the dofs. Where curved
 /// cells have a node but no dof, u_h follows from earlier points of the mapping as a substitute
 /// point does: on the reference cell these sums are exact for the functions of the element.
 template <int dim>

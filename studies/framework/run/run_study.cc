@@ -57,7 +57,10 @@ class StudyRun {
     require_unchanged_meshes(earlier_, options_.out);
     times_.measure("meshes", [&] {
       prepare_meshes();
-      if (!study_.degrees.empty()) require_support_of_ties();
+      if (!study_.degrees.empty()) {
+        require_support_of_ties();
+        require_support_of_curved_cells();
+      }
       if (needs_solutions(study_)) make_solutions();
     });
     changes_ =
@@ -130,6 +133,28 @@ class StudyRun {
           throw InputError(
               what + ", which method " + method.name +
               " does not support, because it moves nodes by the solution; leave it out");
+    }
+  }
+
+  /// Throws InputError if the study asks for what curved cells do not support.
+  void require_support_of_curved_cells() {
+    for (auto& mesh : data_.meshes) {
+      if (!has_curved_cells(mesh.mesh.topology(), study_.finite_elements.geometry)) continue;
+      const auto refuse = [&](const std::string& what) {
+        throw InputError("mesh " + mesh.description.name + " has cells of second order, " + what +
+                         ", or write 'set geometry = straight' in 'subsection finite elements'");
+      };
+      if (mesh.ties)
+        refuse("which have no constraints for hanging or periodic nodes; leave them out");
+      if (!study_.refined_degrees.empty())
+        refuse("which refined meshes do not support; leave 'refined degrees' out");
+      for (const auto& method : study_.methods)
+        if (method.needs_problem(study_.dimensions)) {
+          mesh.changes.push_back(
+              "methods that move nodes by the solution see straight-sided cells");
+          progress_.say(mesh.origin + ": " + mesh.changes.back());
+          break;
+        }
     }
   }
 
@@ -551,6 +576,10 @@ class StudyRun {
         for (const StudySolution* solution : solutions_of(study_))
           facts.solutions.push_back(
               {solution->label, u_text<dim>(*solution), diffusivity_text(*solution)});
+    for (const auto& mesh : data_.meshes)
+      if (has_curved_cells(mesh.mesh.topology(), Geometry::curved))
+        facts.geometry =
+            study_.finite_elements.geometry == Geometry::curved ? "curved" : "straight";
     return facts;
   }
 
