@@ -12,13 +12,6 @@ namespace {
 
 using Place = std::vector<std::size_t>;
 
-/// Returns deal.II's position of a vertex: it has the vertices of quadrilaterals in lexicographic
-/// order, also in pyramids and hexahedra.
-std::size_t deal_ii_position(int dim, std::size_t n_vertices, std::size_t k) {
-  const bool lexicographic = n_vertices == 4 ? dim == 2 : n_vertices == 5 || n_vertices == 8;
-  return lexicographic && (k & 2U) != 0 ? k ^ 1U : k;
-}
-
 bool contains(const Place& place, const Place& part) {
   return std::includes(place.begin(), place.end(), part.begin(), part.end());
 }

@@ -26,6 +26,13 @@ struct MappingPoints {
   std::size_t find(const std::vector<std::size_t>& place) const;
 };
 
+/// Returns deal.II's position of a vertex, or the vertex at that position: it has the vertices of
+/// quadrilaterals in lexicographic order, also in pyramids and hexahedra.
+constexpr std::size_t deal_ii_position(int dim, std::size_t n_vertices, std::size_t k) {
+  const bool lexicographic = n_vertices == 4 ? dim == 2 : n_vertices == 5 || n_vertices == 8;
+  return lexicographic && (k & 2U) != 0 ? k ^ 1U : k;
+}
+
 /// Returns the points of a cell or facet. dim: its dimension, 1 to 3. n_vertices: of it.
 MappingPoints mapping_points(int dim, std::size_t n_vertices, bool curved);
 

@@ -30,17 +30,6 @@ std::unique_ptr<dealii::FiniteElement<dim>> lagrange_element(ElementType type, i
   return std::make_unique<dealii::FE_Q<dim>>(degree);
 }
 
-/// Appends values and gradients of all shape functions at one point.
-template <int dim>
-void append_shapes(const dealii::FiniteElement<dim>& element, const dealii::Point<dim>& point,
-                   std::vector<double>& values, std::vector<double>& gradients) {
-  for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i) {
-    values.push_back(element.shape_value(i, point));
-    const auto gradient = element.shape_grad(i, point);
-    for (int d = 0; d < dim; ++d) gradients.push_back(gradient[d]);
-  }
-}
-
 template <int dim>
 QuadratureTable make_table(const dealii::FiniteElement<dim>& element,
                            const MappingFunctions<dim>& mapping,
@@ -51,7 +40,7 @@ QuadratureTable make_table(const dealii::FiniteElement<dim>& element,
   table.n_points = rule.size();
   table.weights = rule.get_weights();
   for (unsigned int q = 0; q < rule.size(); ++q) {
-    append_shapes(element, rule.point(q), table.shape, table.shape_gradient);
+    append_lagrange<dim>(element, rule.point(q), table.shape, table.shape_gradient);
     mapping.append(rule.point(q), table.geometry, table.geometry_gradient);
   }
   return table;

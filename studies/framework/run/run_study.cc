@@ -213,9 +213,11 @@ class StudyRun {
   std::shared_ptr<const Problem<spacedim>> problem_of(std::size_t m, const StudyMethod& method) {
     if constexpr (dim == spacedim) {
       if (const StudySolver* solver = solver_smoothed_for(study_, method))
-        return make_solver_problem<dim>(data_.meshes[m].mesh, [this, m, solver](int degree) {
-          return solver_on_mesh(data_, m, {solver, with_degree(*solver, degree)}, nullptr);
-        });
+        return make_solver_problem<dim>(
+            data_.meshes[m].for_solvers(data_.meshes[m].mesh.copied_coordinates()),
+            [this, m, solver](int degree) {
+              return solver_on_mesh(data_, m, {solver, with_degree(*solver, degree)}, nullptr);
+            });
       if (data_.solutions.empty()) return nullptr;
       std::vector<std::size_t> chosen;  // indices of the study's solutions
       const auto all = solutions_of(study_);

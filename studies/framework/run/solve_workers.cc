@@ -96,15 +96,14 @@ class OtherSolvers {
     SolutionRecord record;
     record.degree = chosen.degree;
     try {
-      const auto& initial = data_.meshes[job.mesh].mesh;
       if (!solver_ || mesh_ != job.mesh || solve_ != job.solve) {
         solver_.reset();
         solver_ = solver_on_mesh(data_, job.mesh, chosen, team_);
         mesh_ = job.mesh;
         solve_ = job.solve;
       }
-      SolverResult result = solver_->solve(Mesh<dim>(
-          initial.shared_topology(), data_.coordinates_of(task), initial.shared_constraints()));
+      SolverResult result =
+          solver_->solve(data_.meshes[job.mesh].for_solvers(data_.coordinates_of(task)));
       record.numbers = std::move(result.numbers);
       record.status = std::move(result.status);
     } catch (const SolverFailure& failure) {
@@ -299,7 +298,8 @@ std::unique_ptr<MeshSolver<dim>> solver_on_mesh(const StudyData<dim>& data, std:
         solver = team->shared(std::move(solver),
                               static_cast<std::size_t>(solve.solver - data.study.solvers.data()));
     }
-    solver->initialize(data.meshes[mesh].mesh, solve.degree);
+    const auto& prepared = data.meshes[mesh];
+    solver->initialize(prepared.for_solvers(prepared.mesh.copied_coordinates()), solve.degree);
   } catch (const SolverFailure&) {
     throw;
   } catch (const InputError& error) {

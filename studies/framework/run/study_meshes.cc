@@ -251,8 +251,12 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
                   .changes = std::move(changes),
                   .source_sha256 = source_sha256,
                   .sha256 = {}};
-  return {std::move(facts), std::move(mesh), std::move(ties), std::move(kept_name),
-          found.has_value()};
+  const bool is_straight = study.finite_elements.geometry == Geometry::straight;
+  auto of_solvers = is_straight && mesh.topology().midside() != nullptr
+                        ? mesh.topology().without_midside()
+                        : mesh.shared_topology();
+  return {std::move(facts),     std::move(mesh),   std::move(ties),
+          std::move(kept_name), found.has_value(), std::move(of_solvers)};
 }
 
 void require_unchanged_meshes(const EarlierRun& run, const std::filesystem::path& out) {
