@@ -273,9 +273,13 @@ NaturalBoundary number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_po
     return natural;
   }
   const int n_points = dim == 2 ? tensor_points.quadrilateral : tensor_points.hexahedron;
+  // In space all cells have one type. Tables of curved cells of the other one would take longer
+  // than all else.
+  ElementType of_cells = mesh == nullptr ? ElementType::polygon : mesh->topology().cell_type(0);
+  space.ranks.broadcast(of_cells);
   for (const ElementType type : element_types<dim>)
-    space.groups.emplace_back().element =
-        make_reference_element(type, space.degree, n_points, space.is_curved);
+    space.groups.emplace_back().element = make_reference_element(
+        type, space.degree, n_points, space.is_curved && (dim == 2 || type == of_cells));
   const auto triangulation = make_triangulation(mesh, space.ranks);
   dealii::DoFHandler<dim> dofs(*triangulation);
   distribute_dofs(dofs, space.degree);
