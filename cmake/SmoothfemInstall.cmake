@@ -70,6 +70,7 @@ endforeach()
 foreach(header meshes/distortion/distort.h meshes/domains/catalogue.h meshes/io/mesh_file.h
         meshes/io/mesh_view.h meshes/io/vtu_series.h fem/space/finite_element_space.h fem/solutions/manufactured_solution.h fem/solutions/point_function.h
         fem/constraints/node_ties.h fem/poisson_solver.h fem/assembly/load.h fem/solution_record.h fem/ranks/ranks.h fem/elements/reference_element.h
+        fem/elements/curved_cells.h
         fem/solvers/mesh_solver.h fem/deal_ii/triangulation_solver.h)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/${folder} COMPONENT development)

@@ -55,7 +55,8 @@ struct PoissonSolver<dim>::Workspace {
   CholeskyConditionNumber cholesky;
   IterativeConditionNumber iterative;
   Eigen::VectorXd free_solution, discrete;
-  bool is_warm = false;  ///< it has solved before
+  std::vector<double> exact_at_midside;  ///< of a curved space: u at local nodes without a dof
+  bool is_warm = false;                  ///< it has solved before
 
   Workspace(std::shared_ptr<const FiniteElementSpace<dim>> shared, std::size_t n_nodes)
       : space(std::move(shared)),
@@ -120,7 +121,7 @@ PoissonSolver<dim>::PoissonSolver(const Mesh<dim>* mesh, const PoissonOptions& o
     : options_(options),
       work_(std::make_unique<Workspace>(
           make_finite_element_space(mesh, options.degree, options.tensor_points, ranks,
-                                    options.natural_groups, options.ties.get()),
+                                    options.natural_groups, options.ties.get(), options.geometry),
           mesh == nullptr ? 0 : mesh->n_nodes())) {}
 
 template <int dim>
@@ -272,6 +273,12 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
     record.cg_converged = false;
     add_remark("numbers have overflowed", record);
   }
+  if (space.is_curved) {
+    work.exact_at_midside.assign(space.nodes.size(), 0.0);
+    for (std::size_t node = 0; node < space.nodes.size(); ++node)
+      if (space.vertex_dof[node] == space.absent)
+        work.exact_at_midside[node] = solution.value(x[node]);
+  }
   record_points(work.system.points, norms.points, space.ranks, record);
   if (asked_for(options_.best_approximation)) {
     const auto cg_options = work.options_of_cg(options_);
@@ -284,14 +291,47 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
   return record;
 }
 
+namespace {
+
+/// Returns u_h at the local nodes; NaN at nodes that no cell uses. u_h: at the dofs. Where curved
+/// cells have a node but no dof, u_h follows from earlier points of the mapping as a substitute
+/// point does: on the reference cell these sums are exact for the functions of the element.
+template <int dim>
+std::vector<double> values_at_nodes(const FiniteElementSpace<dim>& space,
+                                    const Eigen::VectorXd& u_h) {
+  std::vector<double> values(space.nodes.size() + space.substitute_points.size(),
+                             std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t node = 0; node < space.nodes.size(); ++node)
+    if (const std::uint32_t dof = space.vertex_dof[node]; dof != space.absent)
+      values[node] = u_h[dof];
+  for (std::size_t dof = 0; dof < space.curved_dof_points.size(); ++dof)
+    values[space.curved_dof_points[dof]] = u_h[static_cast<Eigen::Index>(dof)];
+  for (const ElementCells& group : space.groups)
+    for (std::size_t cell = 0; cell < group.n_cells(); ++cell)
+      for (std::size_t k = group.element.n_vertices; k < group.element.mapping.size(); ++k) {
+        const NodeIndex* points = group.mapping_points(cell);
+        if (!std::isnan(values[points[k]])) continue;
+        values[points[k]] = 0.0;
+        for (const auto& [earlier, weight] : group.element.mapping.substitutes[k])
+          values[points[k]] += weight * values[points[earlier]];
+      }
+  values.resize(space.nodes.size());
+  return values;
+}
+
+}  // namespace
+
 template <int dim>
 std::vector<double> PoissonSolver<dim>::nodal_errors() const {
   const auto& space = *work_->space;
-  std::vector<double> local(space.nodes.size(), 0.0);
+  auto local = values_at_nodes(space, work_->discrete);
   for (std::size_t node = 0; node < local.size(); ++node) {
     const std::uint32_t dof = space.vertex_dof[node];
     if (dof != space.absent)
       local[node] = std::abs(work_->system.exact[dof] - work_->discrete[dof]);
+    else
+      local[node] =
+          std::isnan(local[node]) ? 0.0 : std::abs(work_->exact_at_midside[node] - local[node]);
   }
   // Nodes of several ranks occur several times, with the same value.
   const auto of_ranks = space.ranks.gather(local);
@@ -302,29 +342,13 @@ std::vector<double> PoissonSolver<dim>::nodal_errors() const {
 
 namespace {
 
-/// Returns the mesh's cell with these nodes.
-CellIndex cell_with(const Topology& topology, std::vector<NodeIndex> nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  for (const CellIndex c : topology.node_cells(nodes.front())) {
-    std::vector<NodeIndex> others(topology.cell_nodes(c).begin(), topology.cell_nodes(c).end());
-    std::sort(others.begin(), others.end());
-    if (others == nodes) return c;
-  }
-  throw std::logic_error("a finite element's cell is not in the mesh");
-}
-
 /// Returns the mesh's cell of each of this rank's cells, in the order of cell_errors.
 template <int dim>
-std::vector<CellIndex> mesh_cells(const FiniteElementSpace<dim>& space, const Topology& topology) {
+std::vector<CellIndex> mesh_cells(const FiniteElementSpace<dim>& space) {
   std::vector<CellIndex> cells;
-  for (const ElementCells& group : space.groups) {
-    const std::size_t n = group.element.n_vertices;
-    for (std::size_t cell = 0; cell < group.n_own; ++cell) {
-      std::vector<NodeIndex> nodes(n);
-      for (std::size_t v = 0; v < n; ++v) nodes[v] = space.nodes[group.vertices[cell * n + v]];
-      cells.push_back(cell_with(topology, std::move(nodes)));
-    }
-  }
+  for (const ElementCells& group : space.groups)
+    cells.insert(cells.end(), group.numbers.begin(),
+                 group.numbers.begin() + static_cast<std::ptrdiff_t>(group.n_own));
   return cells;
 }
 
@@ -340,11 +364,8 @@ DiscreteSolution<dim> PoissonSolver<dim>::discrete_solution(
                                .dof_values = {u_h.begin(), u_h.end()},
                                .node_values = {},
                                .cell_errors = {}};
-  result.node_values.assign(mesh.n_nodes(), std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t node = 0; node < space.nodes.size(); ++node)
-    if (const std::uint32_t dof = space.vertex_dof[node]; dof != space.absent)
-      result.node_values[space.nodes[node]] = u_h[dof];
-  const auto cells = mesh_cells(space, mesh.topology());
+  result.node_values = values_at_nodes(space, u_h);  // one process has the mesh's numbers
+  const auto cells = mesh_cells(space);
   const auto errors = cell_errors(space, x, solution, work_->system.exact, u_h);
   result.cell_errors.resize(mesh.n_cells());
   for (std::size_t k = 0; k < cells.size(); ++k) result.cell_errors[cells[k]] = errors[k];

@@ -26,6 +26,7 @@ enum class ConditionNumberMethod {
 /// Contents and method of a finite element record (thesis, Section 6.1).
 struct PoissonOptions {
   int degree = 1;  ///< of the Lagrange elements: 1 or 2
+  Geometry geometry = Geometry::curved;
   Load load = Load::quadrature;
   std::vector<std::string> natural_groups{};  ///< see make_finite_element_space
   std::shared_ptr<const NodeTies> ties{};     ///< on the root; null: none
@@ -47,9 +48,11 @@ struct PoissonOptions {
 /// A finite element function u_h, and how far it is from u.
 template <int dim>
 struct DiscreteSolution {
-  std::vector<Point<dim>> dof_points;    ///< positions of the dofs
-  std::vector<double> dof_values;        ///< u_h there
-  std::vector<double> node_values;       ///< u_h at each mesh node; NaN at nodes that no cell uses
+  std::vector<Point<dim>> dof_points;  ///< positions of the dofs
+  std::vector<double> dof_values;      ///< u_h there
+  /// u_h at each mesh node; NaN at nodes that no cell uses, and at midside nodes if the geometry is
+  /// straight.
+  std::vector<double> node_values;
   std::vector<ErrorOnCell> cell_errors;  ///< norms of u - u_h on each cell of the mesh
 };
 
@@ -68,12 +71,12 @@ class PoissonSolver {
 
   /// Solves on a mesh. coordinates: on the root, of all nodes of a mesh of the topology with valid
   /// cells. is_result: true for an initial or resulting mesh of a study, with all that is recorded
-  /// for it.
+  /// for it. Throws CellError for curved cells that are folded inside.
   SolutionRecord solve(std::span<const Point<dim>> coordinates,
                        const ManufacturedSolution<dim>& solution, bool is_result = true);
 
-  /// Returns, on the root, |u - u_h| of the last solve at each mesh node; 0 at nodes that no cell
-  /// uses. Collective.
+  /// Returns, on the root, |u - u_h| of the last solve at each mesh node; 0 at nodes where
+  /// node_values is NaN. Collective.
   std::vector<double> nodal_errors() const;
 
   /// Returns the last solution. mesh, solution: those of the last solve. For one process only.

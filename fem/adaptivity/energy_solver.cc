@@ -93,7 +93,8 @@ class GatheredSpace {
     });
     const auto of_ranks = part.ranks.gather(nodes);
     if (!mesh) return;
-    space_ = make_finite_element_space(&*mesh, part.degree, tensor_points, {}, natural_groups);
+    space_ = make_finite_element_space(&*mesh, part.degree, tensor_points, {}, natural_groups,
+                                       nullptr, Geometry::straight);
     std::map<std::vector<NodeIndex>, std::uint32_t> dofs;
     for (std::uint32_t dof = 0; dof < space_->n_local; ++dof)
       dofs[sorted_nodes(*space_, dof)] = dof;
@@ -148,7 +149,8 @@ class RankEnergySolver final : public EnergySolver<dim> {
                    const std::vector<std::string>& natural_groups, const Ranks& ranks)
       : solution_(solution),
         natural_groups_(natural_groups),
-        space_(make_finite_element_space(mesh, degree, tensor_points, ranks, natural_groups)),
+        space_(make_finite_element_space(mesh, degree, tensor_points, ranks, natural_groups,
+                                         nullptr, Geometry::straight)),
         energy_(space_, solution),
         system_(make_system(*space_)),
         linear_(*space_, system_.matrix) {

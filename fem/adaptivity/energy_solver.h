@@ -21,7 +21,8 @@ struct GatheredFunction {
 /// Solves -div(A grad u) = f on meshes of one topology. Computes the energy J = a(u_h, u_h) - 2 (f,
 /// u_h) and its gradient in node positions (see Energy). Planar meshes on one process use a
 /// Cholesky factorization, all others CG with algebraic multigrid. Both errors are far below the
-/// discretization error.
+/// discretization error. Cells of second order are straight-sided here: the energy and its gradient
+/// are those of the mesh of their corners.
 template <int dim>
 class EnergySolver {
  public:

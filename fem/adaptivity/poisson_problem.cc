@@ -29,7 +29,6 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
     energy_ = make_energy_solver_(mesh, degree, number_);
     topology_ = mesh.shared_topology();
     degree_ = degree;
-    cells_.clear();
     solved_.clear();
   }
 
@@ -80,26 +79,11 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   template <class T>
   std::vector<T> in_order_of_cells(const FiniteElementSpace<dim>& space,
                                    const std::vector<T>& of_space) const {
-    if (cells_.empty()) number_cells(space);
     std::vector<T> of_cells(topology_->n_cells());
-    for (std::size_t k = 0; k < of_space.size(); ++k) of_cells[cells_[k]] = of_space[k];
-    return of_cells;
-  }
-
-  /// Finds the mesh's cell of each of the space's cells, by its nodes.
-  void number_cells(const FiniteElementSpace<dim>& space) const {
+    auto next = of_space.begin();
     for (const auto& group : space.groups)
-      for (std::size_t first = 0; first < group.vertices.size();
-           first += group.element.n_vertices) {
-        std::vector<NodeIndex> nodes;
-        for (std::size_t v = 0; v < group.element.n_vertices; ++v)
-          nodes.push_back(space.nodes[group.vertices[first + v]]);
-        const auto around = topology_->node_cells(nodes[0]);
-        cells_.push_back(*std::find_if(around.begin(), around.end(), [&](CellIndex c) {
-          const auto of_cell = topology_->cell_nodes(c);
-          return std::is_permutation(of_cell.begin(), of_cell.end(), nodes.begin(), nodes.end());
-        }));
-      }
+      for (const CellIndex cell : group.numbers) of_cells[cell] = *next++;
+    return of_cells;
   }
 
   const ManufacturedSolution<dim>& solution_;
@@ -108,8 +92,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   std::shared_ptr<const Topology> topology_;
   int degree_ = 0;
   std::unique_ptr<EnergySolver<dim>> energy_;
-  mutable std::vector<CellIndex> cells_;  ///< of the mesh, group after group; made at first use
-  std::vector<Point<dim>> solved_;        ///< nodes of the last solve
+  std::vector<Point<dim>> solved_;  ///< nodes of the last solve
   double value_ = 0.0;
   SolveEffort effort_;
 };

@@ -63,6 +63,9 @@ class CellAssembly {
         add_cell<dim, n_dofs>(space_, group_, cell, fine, l, system_);
         if (cell >= group_.n_own) continue;
         system_.n_folded_cells += is_folded;
+        if (is_folded)
+          system_.first_folded_cell =
+              std::min<std::size_t>(system_.first_folded_cell, group_.numbers[cell]);
         if (n_rules > 1) system_.points.note(level, is_settled);
       }
     }
@@ -94,6 +97,38 @@ class CellAssembly {
   const AnyDiffusivity& diffusivity_;
   PoissonSystem& system_;
 };
+
+/// True if a cell is straight-sided: its mapping is the same without midside nodes.
+template <int dim>
+bool is_straight(const ElementCells& group, std::size_t cell, const std::vector<Point<dim>>& x) {
+  const NodeIndex* points = group.mapping_points(cell);
+  const auto& substitutes = group.element.mapping.substitutes;
+  for (std::size_t k = group.element.n_vertices; k < substitutes.size(); ++k) {
+    Point<dim> straight = Point<dim>::Zero();
+    for (const auto& [earlier, weight] : substitutes[k]) straight += weight * x[points[earlier]];
+    if (x[points[k]] != straight) return false;
+  }
+  return true;
+}
+
+/// Adds the integrals of some cells of one element. Among curved simplices, straight-sided ones
+/// have the exact matrices of straight-sided spaces, which cost much less.
+template <int dim, std::size_t n_dofs, std::size_t n_points, class AnyDiffusivity, class LoadAt>
+void add_cells(const FiniteElementSpace<dim>& space, const ElementCells& group,
+               std::vector<std::size_t> cells, const std::vector<Point<dim>>& x,
+               const LoadAt& load_at, const AnyDiffusivity& diffusivity, PoissonSystem& system) {
+  if constexpr (n_points == n_curved_simplex<dim> && is_constant_diffusivity<AnyDiffusivity>) {
+    const auto curved = std::stable_partition(
+        cells.begin(), cells.end(), [&](std::size_t cell) { return is_straight(group, cell, x); });
+    CellAssembly<dim, n_dofs, dim + 1, AnyDiffusivity, LoadAt>(space, group, x, load_at,
+                                                               diffusivity, system)
+        .run({cells.begin(), curved});
+    cells.erase(cells.begin(), curved);
+  }
+  CellAssembly<dim, n_dofs, n_points, AnyDiffusivity, LoadAt>(space, group, x, load_at, diffusivity,
+                                                              system)
+      .run(std::move(cells));
+}
 
 /// Computes b_i += integral of f phi_i over the cells of one element. f_of(cell): f as a function
 /// of the position.
@@ -161,15 +196,13 @@ class MaterialAssembly {
     const auto load_at = [&](std::size_t cell, std::size_t i) {
       if (load_ != Load::nodal) return 0.0;
       Point<dim> mean = Point<dim>::Zero();
-      for (std::size_t v = 0; v < n_vertices; ++v)
-        mean += x_[group_.vertices[cell * n_vertices + v]];
-      mean /= static_cast<double>(n_vertices);
+      const std::size_t n_corners = group_.element.n_vertices;
+      for (std::size_t v = 0; v < n_corners; ++v) mean += x_[group_.vertices[cell * n_corners + v]];
+      mean /= static_cast<double>(n_corners);
       return of_cell(cell).load(
           slightly_inside<dim>(dof_points_[group_.dofs[cell * n_dofs + i]], mean));
     };
-    CellAssembly<dim, n_dofs, n_vertices, AnyDiffusivity, decltype(load_at)>(
-        space_, group_, x_, load_at, diffusivity, system_)
-        .run(cells);
+    add_cells<dim, n_dofs, n_vertices>(space_, group_, cells, x_, load_at, diffusivity, system_);
   }
 
   const FiniteElementSpace<dim>& space_;
@@ -181,6 +214,18 @@ class MaterialAssembly {
   const Load load_;
   PoissonSystem& system_;
 };
+
+/// Throws CellError on all ranks for the first cell that is folded at a point. Collective.
+void require_unfolded(const Ranks& ranks, const PoissonSystem& system) {
+  const double none = static_cast<double>(no_cell);
+  const double first = -ranks.max(-static_cast<double>(system.first_folded_cell));
+  if (first < none)
+    throw CellError(
+        static_cast<std::size_t>(first),
+        "is folded inside by its midside nodes: the Jacobian determinant of its mapping "
+        "is not positive at a quadrature point; move these nodes towards the middle of "
+        "their edges, or write 'set geometry = straight'");
+}
 
 }  // namespace
 
@@ -213,6 +258,7 @@ void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>
   system.matrix.coeffs().setZero();
   system.right_hand_side.setZero();
   system.n_folded_cells = 0;
+  system.first_folded_cell = no_cell;
   system.points = {};
   for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
     if (!materials.empty())
@@ -225,9 +271,7 @@ void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>
     std::vector<std::size_t> cells(group.n_cells());
     std::iota(cells.begin(), cells.end(), std::size_t{0});
     const auto run = [&]<class AnyDiffusivity>(const AnyDiffusivity& diffusivity) {
-      CellAssembly<dim, n_dofs, n_vertices, AnyDiffusivity, decltype(load_at)>(
-          space, group, x, load_at, diffusivity, system)
-          .run(cells);
+      add_cells<dim, n_dofs, n_vertices>(space, group, cells, x, load_at, diffusivity, system);
     };
     if (solution.diffusivity)
       run(VariableDiffusivity<dim>{solution.diffusivity});
@@ -237,6 +281,7 @@ void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>
       add_quadrature_load<dim, n_dofs, n_vertices>(
           space, group, x, [&](std::size_t) -> auto& { return solution.load; }, system);
   });
+  if (space.is_curved) require_unfolded(space.ranks, system);
   add_natural_load(space, x, solution, materials, system.right_hand_side);
 }
 

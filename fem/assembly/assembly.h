@@ -10,6 +10,8 @@
 
 namespace smoothfem {
 
+inline constexpr std::size_t no_cell = UINT32_MAX;
+
 /// The linear system of the Poisson problem for this rank's free dofs; boundary values are
 /// eliminated.
 struct PoissonSystem {
@@ -19,7 +21,8 @@ struct PoissonSystem {
   /// Cells of this rank whose mapping is folded at a quadrature point. A hexahedron can be valid at
   /// all corners and folded inside; the matrix may then be indefinite.
   std::size_t n_folded_cells = 0;
-  adaptive_quadrature::Use points{};  ///< of this rank's hexahedra
+  std::size_t first_folded_cell = no_cell;  ///< by its number in the mesh
+  adaptive_quadrature::Use points{};        ///< of this rank's hexahedra
 };
 
 /// Makes a system with the space's pattern, to be filled repeatedly.
@@ -32,7 +35,9 @@ template <int dim>
 std::vector<std::uint32_t> materials_of_kinds(const Ranks& ranks,
                                               const ManufacturedSolution<dim>& solution);
 
-/// Fills the system for a mesh whose cells are all valid. x: coordinates of the local nodes.
+/// Fills the system for a mesh whose cells are all valid. x: coordinates of the local points. In a
+/// curved space, throws CellError on all ranks for the first cell that is folded inside.
+/// Collective.
 template <int dim>
 void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
               const ManufacturedSolution<dim>& solution, Load load, PoissonSystem& system);

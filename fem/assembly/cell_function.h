@@ -49,14 +49,15 @@ struct CellFunction {
 };
 
 /// Calls visit.operator()<n_dofs, n_vertices>(group, number of the group) for the groups of a space
-/// without pyramids and prisms.
+/// without pyramids and prisms, and without curved cells.
 template <int dim, class Visit>
 void for_each_smooth_group(const FiniteElementSpace<dim>& space, const Visit& visit) {
-  for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
-    if constexpr (dim == 2 || (n_vertices != 5 && n_vertices != 6))
-      visit.template operator()<n_dofs, n_vertices>(
-          group, static_cast<std::size_t>(&group - space.groups.data()));
-  });
+  for_each_straight_group(
+      space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
+        if constexpr (dim == 2 || (n_vertices != 5 && n_vertices != 6))
+          visit.template operator()<n_dofs, n_vertices>(
+              group, static_cast<std::size_t>(&group - space.groups.data()));
+      });
 }
 
 }  // namespace smoothfem

@@ -46,7 +46,7 @@ struct Jacobian {
   }
 };
 
-/// A straight-sided cell's mapping at one quadrature point.
+/// A cell's mapping at one quadrature point.
 template <int dim, class Real>
 struct MappedPoint {
   Vector<dim, Real> position;
@@ -54,7 +54,8 @@ struct MappedPoint {
   Real weight;  ///< quadrature weight times the Jacobian's determinant
 };
 
-/// vertices: of the cell in the element's order. q: number of the point in the table.
+/// vertices: the points of the cell's mapping, in the element's order: the vertices, and in curved
+/// cells the midside points. q: number of the point in the table.
 template <int dim, class Real, std::size_t n_vertices>
 inline MappedPoint<dim, Real> map_point(const QuadratureTable& table, std::size_t q,
                                         const std::array<Vector<dim, Real>, n_vertices>& vertices) {
@@ -117,7 +118,7 @@ struct CellIntegrals {
   }
 
  private:
-  /// Simplices: one mapping for the whole cell.
+  /// Straight-sided simplices: one mapping for the whole cell.
   template <int dim>
   void compute_affine(const ReferenceElement& element,
                       const std::array<Vector<dim, Real>, dim + 1>& vertices,
@@ -179,13 +180,13 @@ struct CellIntegrals {
   }
 };
 
-/// The vertices of n_lanes cells, one in each lane.
+/// The first n_vertices points of the mappings of n_lanes cells, one in each lane.
 template <int dim, std::size_t n_vertices>
 std::array<Vector<dim, Lanes>, n_vertices> cell_vertices(
     const ElementCells& group, const std::array<std::size_t, n_lanes>& cells,
     const std::vector<Point<dim>>& x) {
   std::array<const NodeIndex*, n_lanes> rows;
-  for (std::size_t l = 0; l < n_lanes; ++l) rows[l] = &group.vertices[cells[l] * n_vertices];
+  for (std::size_t l = 0; l < n_lanes; ++l) rows[l] = group.mapping_points(cells[l]);
   std::array<Vector<dim, Lanes>, n_vertices> vertices;
   for (std::size_t v = 0; v < n_vertices; ++v)
     vertices[v] =
@@ -244,20 +245,21 @@ struct Settled {
   }
 };
 
-/// Returns a cell's vertices, one cell at a time.
+/// Returns the points of a cell's mapping, one cell at a time.
 template <int dim, std::size_t n_vertices>
 std::array<Vector<dim, double>, n_vertices> cell_vertices(const ElementCells& group,
                                                           std::size_t cell,
                                                           const std::vector<Point<dim>>& x) {
+  const NodeIndex* points = group.mapping_points(cell);
   std::array<Vector<dim, double>, n_vertices> vertices;
-  for (std::size_t v = 0; v < n_vertices; ++v)
-    vertices[v] = vector_of(x[group.vertices[cell * n_vertices + v]]);
+  for (std::size_t v = 0; v < n_vertices; ++v) vertices[v] = vector_of(x[points[v]]);
   return vertices;
 }
 
-/// Calls visit.operator()<n_dofs, n_vertices>(group) for the cells of each available element.
+/// Calls visit.operator()<n_dofs, n_vertices>(group) for the cells of each available element of a
+/// straight-sided space.
 template <int dim, class Visit>
-void for_each_group(const FiniteElementSpace<dim>& space, const Visit& visit) {
+void for_each_straight_group(const FiniteElementSpace<dim>& space, const Visit& visit) {
   constexpr std::size_t n_simplex = dim + 1, n_tensor = dim == 2 ? 4 : 8;
   [[maybe_unused]] constexpr std::size_t n_pyramid = 5, n_prism = 6;
   for (const auto& group : space.groups) {
@@ -281,6 +283,29 @@ void for_each_group(const FiniteElementSpace<dim>& space, const Visit& visit) {
     else
       visit.template operator()<dim == 2 ? 9 : 27, n_tensor>(group);
   }
+}
+
+/// Numbers of points of the mappings of curved simplices.
+template <int dim>
+constexpr std::size_t n_curved_simplex = dim == 2 ? 7 : 10;
+
+/// Calls visit.operator()<n_dofs, n_points>(group) for the cells of each available element, with
+/// the number of points of its mapping: n_vertices in straight-sided spaces.
+template <int dim, class Visit>
+void for_each_group(const FiniteElementSpace<dim>& space, const Visit& visit) {
+  if (!space.is_curved) return for_each_straight_group(space, visit);
+  constexpr std::size_t n_tensor = dim == 2 ? 9 : 27;
+  for_each_straight_group(
+      space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
+        if constexpr (n_vertices == dim + 1)
+          visit.template operator()<n_dofs, n_curved_simplex<dim>>(group);
+        else if constexpr (n_vertices == 5)
+          visit.template operator()<n_dofs, 14>(group);
+        else if constexpr (n_vertices == 6)
+          visit.template operator()<n_dofs, 18>(group);
+        else
+          visit.template operator()<n_dofs, n_tensor>(group);
+      });
 }
 
 }  // namespace smoothfem

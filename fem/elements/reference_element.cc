@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "fem/elements/adaptive_quadrature.h"
+#include "fem/elements/mapping_functions.h"
 #include "fem/elements/quadrature_rules.h"
 #include "fem/elements/single_threaded.h"
 #include "smoothing/base/input_error.h"
@@ -29,20 +30,9 @@ std::unique_ptr<dealii::FiniteElement<dim>> lagrange_element(ElementType type, i
   return std::make_unique<dealii::FE_Q<dim>>(degree);
 }
 
-/// Appends values and gradients of all shape functions at one point.
-template <int dim>
-void append_shapes(const dealii::FiniteElement<dim>& element, const dealii::Point<dim>& point,
-                   std::vector<double>& values, std::vector<double>& gradients) {
-  for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i) {
-    values.push_back(element.shape_value(i, point));
-    const auto gradient = element.shape_grad(i, point);
-    for (int d = 0; d < dim; ++d) gradients.push_back(gradient[d]);
-  }
-}
-
 template <int dim>
 QuadratureTable make_table(const dealii::FiniteElement<dim>& element,
-                           const dealii::FiniteElement<dim>& geometry,
+                           const MappingFunctions<dim>& mapping,
                            const dealii::Quadrature<dim>& rule) {
   // For unknown degrees deal.II 9.4 returns empty rules, in Release without an error.
   if (rule.size() == 0) throw std::logic_error("empty quadrature rule");
@@ -50,8 +40,8 @@ QuadratureTable make_table(const dealii::FiniteElement<dim>& element,
   table.n_points = rule.size();
   table.weights = rule.get_weights();
   for (unsigned int q = 0; q < rule.size(); ++q) {
-    append_shapes(element, rule.point(q), table.shape, table.shape_gradient);
-    append_shapes(geometry, rule.point(q), table.geometry, table.geometry_gradient);
+    append_lagrange<dim>(element, rule.point(q), table.shape, table.shape_gradient);
+    mapping.append(rule.point(q), table.geometry, table.geometry_gradient);
   }
   return table;
 }
@@ -82,7 +72,7 @@ AffineTable make_affine_table(const QuadratureTable& table, std::size_t n_dofs, 
   return affine;
 }
 
-/// Values of the geometry shape functions at the support points of the element's dofs.
+/// Values of the shape functions of degree 1 at the support points of the element's dofs.
 template <int dim>
 std::vector<double> support_of(const dealii::FiniteElement<dim>& element,
                                const dealii::FiniteElement<dim>& geometry) {
@@ -94,23 +84,27 @@ std::vector<double> support_of(const dealii::FiniteElement<dim>& element,
 }
 
 template <int dim>
-ReferenceElement make_element(ElementType type, int degree, int n_tensor_points) {
+ReferenceElement make_element(ElementType type, int degree, int n_tensor_points, bool curved) {
   const auto element = lagrange_element<dim>(type, degree);
-  const auto geometry = lagrange_element<dim>(type, 1);
+  const auto linear = lagrange_element<dim>(type, 1);
+  const MappingFunctions<dim> mapping(*linear, curved);
   ReferenceElement reference{.type = type,
-                             .n_vertices = geometry->n_dofs_per_cell(),
+                             .n_vertices = linear->n_dofs_per_cell(),
                              .n_dofs = element->n_dofs_per_cell(),
-                             .support = support_of(*element, *geometry),
+                             .mapping = mapping.points(),
+                             .support = support_of(*element, *linear),
                              .affine = {},
                              .matrices = {},
                              .errors = {}};
   if (is_simplex(type)) {
-    reference.matrices = make_table<dim>(*element, *geometry, simplex_matrix_rule<dim>());
-    reference.affine = make_affine_table(reference.matrices, reference.n_dofs, dim);
-    reference.errors = make_table<dim>(*element, *geometry, simplex_error_rule<dim>(degree));
+    const auto exact = make_table<dim>(*element, mapping, simplex_matrix_rule<dim>());
+    reference.affine = make_affine_table(exact, reference.n_dofs, dim);
+    reference.errors =
+        make_table<dim>(*element, mapping, simplex_error_rule<dim>(curved ? 2 : degree));
+    reference.matrices = curved ? reference.errors : exact;
   } else {
     const auto table = [&](int n_points) {
-      return make_table<dim>(*element, *geometry,
+      return make_table<dim>(*element, mapping,
                              gauss_rule<dim>(type, static_cast<unsigned int>(n_points)));
     };
     const bool is_chosen = n_tensor_points == 0;
@@ -188,9 +182,10 @@ std::vector<dealii::Quadrature<dim>> load_rules(ElementType type) {
 template <int dim>
 EnergyRules make_rules_of_energy(ElementType type, int degree) {
   const auto element = lagrange_element<dim>(type, degree);
-  const auto geometry = lagrange_element<dim>(type, 1);
+  const auto linear = lagrange_element<dim>(type, 1);
+  const MappingFunctions<dim> mapping(*linear, false);
   const auto table = [&](const dealii::Quadrature<dim>& rule) {
-    return make_table<dim>(*element, *geometry, rule);
+    return make_table<dim>(*element, mapping, rule);
   };
   EnergyRules rules;
   if (is_simplex(type))
@@ -201,38 +196,41 @@ EnergyRules make_rules_of_energy(ElementType type, int degree) {
 
 template <int dim>
 QuadratureTable make_table_at_support(ElementType type, int degree) {
-  const auto element = lagrange_element<dim>(type, degree);
+  const auto element = lagrange_element<dim>(type, degree), linear = lagrange_element<dim>(type, 1);
   const auto& points = element->get_unit_support_points();
-  return make_table<dim>(*element, *lagrange_element<dim>(type, 1),
+  return make_table<dim>(*element, MappingFunctions<dim>(*linear, false),
                          dealii::Quadrature<dim>(points, std::vector<double>(points.size(), 0.0)));
 }
 
 /// dim: of the facet.
 template <int dim>
-FacetElement make_facet(bool simplex, int degree) {
+FacetElement make_facet(bool simplex, int degree, bool curved) {
   const auto lagrange = [&](int of_degree) -> std::unique_ptr<dealii::FiniteElement<dim>> {
     if (simplex) return std::make_unique<dealii::FE_SimplexP<dim>>(of_degree);
     return std::make_unique<dealii::FE_Q<dim>>(of_degree);
   };
   constexpr unsigned int n_points = 8;
-  const auto element = lagrange(degree), geometry = lagrange(1);
-  FacetElement facet{.n_vertices = geometry->n_dofs_per_cell(),
+  const auto element = lagrange(degree), linear = lagrange(1);
+  const MappingFunctions<dim> mapping(*linear, curved);
+  FacetElement facet{.n_vertices = linear->n_dofs_per_cell(),
                      .n_dofs = element->n_dofs_per_cell(),
-                     .support = support_of(*element, *geometry),
+                     .mapping = mapping.points(),
+                     .support = support_of(*element, *linear),
                      .rule = {}};
   if constexpr (dim == 2)
     facet.rule = make_table<2>(
-        *element, *geometry, simplex ? simplex_error_rule<2>(degree) : dealii::QGauss<2>(n_points));
+        *element, mapping, simplex ? simplex_error_rule<2>(degree) : dealii::QGauss<2>(n_points));
   else
-    facet.rule = make_table<1>(*element, *geometry, dealii::QGauss<1>(n_points));
+    facet.rule = make_table<1>(*element, mapping, dealii::QGauss<1>(n_points));
   return facet;
 }
 
 }  // namespace
 
-FacetElement make_facet_element(std::size_t n_vertices, int degree) {
+FacetElement make_facet_element(std::size_t n_vertices, int degree, bool curved) {
   keep_deal_ii_single_threaded();
-  return n_vertices == 2 ? make_facet<1>(false, degree) : make_facet<2>(n_vertices == 3, degree);
+  return n_vertices == 2 ? make_facet<1>(false, degree, curved)
+                         : make_facet<2>(n_vertices == 3, degree, curved);
 }
 
 QuadratureTable make_support_table(ElementType type, int degree) {
@@ -247,10 +245,11 @@ EnergyRules make_energy_rules(ElementType type, int degree) {
                                  : make_rules_of_energy<3>(type, degree);
 }
 
-ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points) {
+ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points,
+                                        bool curved) {
   keep_deal_ii_single_threaded();
-  return dimension_of(type) == 2 ? make_element<2>(type, degree, n_tensor_points)
-                                 : make_element<3>(type, degree, n_tensor_points);
+  return dimension_of(type) == 2 ? make_element<2>(type, degree, n_tensor_points, curved)
+                                 : make_element<3>(type, degree, n_tensor_points, curved);
 }
 
 }  // namespace smoothfem

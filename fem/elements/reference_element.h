@@ -4,17 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "fem/elements/curved_cells.h"
 #include "smoothing/mesh/element_type.h"
 
 namespace smoothfem {
 
 /// Values at the points of one quadrature rule on a reference cell. All arrays run over the points
-/// first, then over the dofs (or vertices). Gradients have an entry for each dimension.
+/// first, then over the dofs (or the points of the mapping). Gradients have an entry for each
+/// dimension.
 struct QuadratureTable {
   std::size_t n_points = 0;
   std::vector<double> weights;
   std::vector<double> shape, shape_gradient;        ///< of the finite element
-  std::vector<double> geometry, geometry_gradient;  ///< of the straight-sided mapping (degree 1)
+  std::vector<double> geometry, geometry_gradient;  ///< of the mapping, at MappingPoints
 };
 
 /// Integrals over the reference simplex. Its mapping is affine, so that integrals over a cell are
@@ -31,10 +33,11 @@ struct ReferenceElement {
   ElementType type;
   std::size_t n_vertices = 0;
   std::size_t n_dofs = 0;
-  /// Geometry shape functions at the dofs' support points, n_dofs x n_vertices: the positions of
-  /// the dofs.
+  MappingPoints mapping;
+  /// Shape functions of degree 1 at the dofs' support points, n_dofs x n_vertices: the positions of
+  /// the dofs in straight-sided cells.
   std::vector<double> support;
-  AffineTable affine;  ///< simplices: stiffness, mass and load
+  AffineTable affine;  ///< straight-sided simplices: stiffness, mass and load
   QuadratureTable
       matrices;            ///< other cells: stiffness, mass and load; all cells: load by quadrature
   QuadratureTable errors;  ///< for norms and errors
@@ -43,6 +46,14 @@ struct ReferenceElement {
   std::vector<QuadratureTable> finer{};
   QuadratureTable check{};  ///< with finer rules: a coarser rule that checks the first one
 
+  /// Returns the vertices whose mean is the support point of a dof, ascending.
+  std::vector<std::size_t> vertices_around(std::size_t dof) const {
+    std::vector<std::size_t> around;
+    for (std::size_t v = 0; v < n_vertices; ++v)
+      if (support[dof * n_vertices + v] > 1e-12) around.push_back(v);
+    return around;
+  }
+  bool is_curved() const { return mapping.size() > n_vertices; }
   std::size_t n_rules() const { return 1 + finer.size(); }
   /// In the order of their points; only 0 for simplices.
   const QuadratureTable& rule(std::size_t level) const {
@@ -54,6 +65,7 @@ struct ReferenceElement {
 struct FacetElement {
   std::size_t n_vertices = 0;  ///< 2: an edge; 3, 4: a triangle or quadrilateral in space
   std::size_t n_dofs = 0;
+  MappingPoints mapping;
   std::vector<double> support;  ///< as in ReferenceElement
   QuadratureTable rule;         ///< 8 Gauss points per direction; degree 11 on triangles
 };
@@ -66,7 +78,12 @@ struct FacetElement {
 /// n_tensor_points in each direction for both; on pyramids and prisms it is collapsed. No rule is
 /// exact, as the stiffness of a distorted cell is rational. 0 points: the rules of
 /// adaptive_quadrature::rule_sequence, of which each cell uses what it needs.
-ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points);
+///
+/// curved: the mapping is of second order. The integrands on simplices are then rational, too, and
+/// matrices, loads and errors have the same rule, of degree 11 on triangles and 7 on tetrahedra.
+/// (Degree 2 would keep the order of the error; Ciarlet, Raviart 1972.)
+ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points,
+                                        bool curved = false);
 
 /// Makes the values at the support points of the element's dofs, in their order; without weights.
 QuadratureTable make_support_table(ElementType type, int degree);
@@ -81,6 +98,6 @@ struct EnergyRules {
 EnergyRules make_energy_rules(ElementType type, int degree);
 
 /// n_vertices: 2, 3 or 4; degree: 1 or 2.
-FacetElement make_facet_element(std::size_t n_vertices, int degree);
+FacetElement make_facet_element(std::size_t n_vertices, int degree, bool curved = false);
 
 }  // namespace smoothfem

@@ -40,6 +40,7 @@ struct SolverTraits {
   bool needs_mpi = false;       ///< it calls libraries that need MPI, and is not called by threads
   bool needs_solution = false;  ///< of the study, by use_solution
   bool takes_ties = false;      ///< it solves on meshes with tied nodes (use_ties)
+  bool takes_curved_cells = false;  ///< it maps cells of second order by their midside nodes, too
   bool takes_ranks = false;  ///< it solves on several processes, if there are no ties (use_ranks)
   bool has_energy = false;   ///< `energy` and `energy_gradient`
   bool has_indicators = false;  ///< `indicators`

@@ -2,7 +2,9 @@
 #include "fem/space/finite_element_space.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "fem/space/curved_points.h"
 #include "fem/space/natural_load.h"
 #include "fem/space/numbered_dofs.h"
 
@@ -26,9 +28,8 @@ void locate_dofs(FiniteElementSpace<dim>& space) {
       auto& row = nodes[group.dofs[k]];
       if (!row.empty()) continue;
       const std::size_t cell = k / element.n_dofs, i = k % element.n_dofs;
-      for (std::size_t v = 0; v < element.n_vertices; ++v)
-        if (element.support[i * element.n_vertices + v] > 1e-12)
-          row.push_back(group.vertices[cell * element.n_vertices + v]);
+      for (const std::size_t v : element.vertices_around(i))
+        row.push_back(group.vertices[cell * element.n_vertices + v]);
       std::sort(row.begin(), row.end());
     }
   }
@@ -37,6 +38,25 @@ void locate_dofs(FiniteElementSpace<dim>& space) {
     space.dof_nodes.append(nodes[dof]);
     if (nodes[dof].size() == 1) space.vertex_dof[nodes[dof][0]] = dof;
   }
+}
+
+/// Finds the points of the dofs among those of the curved cells.
+template <int dim>
+void locate_curved_dofs(FiniteElementSpace<dim>& space) {
+  auto& points = space.curved_dof_points;
+  points.assign(space.n_local, absent);
+  for (std::uint32_t dof = 0; dof < space.n_local; ++dof)
+    if (space.dof_nodes[dof].size() == 1) points[dof] = space.dof_nodes[dof][0];
+  for (const auto& group : space.groups) {
+    const auto& element = group.element;
+    for (std::size_t i = 0; i < element.n_dofs; ++i) {
+      const std::size_t p = element.mapping.find(element.vertices_around(i));
+      for (std::size_t cell = 0; cell < group.n_cells(); ++cell)
+        points[group.dofs[cell * element.n_dofs + i]] = group.mapping_points(cell)[p];
+    }
+  }
+  for (std::uint32_t dof = 0; dof < space.n_local; ++dof)
+    if (points[dof] < space.nodes.size()) space.vertex_dof[points[dof]] = dof;
 }
 
 /// For each of this rank's equations the cells (group, number) that contribute to it.
@@ -111,14 +131,18 @@ std::vector<Point<dim>> FiniteElementSpace<dim>::local_coordinates(
   std::vector<Point<dim>> of_ranks;
   of_ranks.reserve(nodes_of_ranks.size());
   for (const NodeIndex node : nodes_of_ranks) of_ranks.push_back(coordinates[node]);
-  return ranks.scatter(of_ranks, nodes.size());
+  auto points = ranks.scatter(of_ranks, nodes.size());
+  for (const SubstitutePoint& sum : substitute_points) points.push_back(weighted_sum(sum, points));
+  return points;
 }
 
 template <int dim>
 std::vector<Point<dim>> FiniteElementSpace<dim>::dof_points(
     std::span<const Point<dim>> local_coordinates) const {
   std::vector<Point<dim>> points(n_local);
-  for (std::size_t dof = 0; dof < n_local; ++dof) {
+  for (std::size_t dof = 0; dof < curved_dof_points.size(); ++dof)
+    points[dof] = local_coordinates[curved_dof_points[dof]];
+  for (std::size_t dof = curved_dof_points.size(); dof < n_local; ++dof) {
     Point<dim> sum = Point<dim>::Zero();
     for (const NodeIndex node : dof_nodes[dof]) sum += local_coordinates[node];
     points[dof] = sum / static_cast<double>(dof_nodes[dof].size());
@@ -129,21 +153,26 @@ std::vector<Point<dim>> FiniteElementSpace<dim>::dof_points(
 template <int dim>
 std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
     const Mesh<dim>* mesh, int degree, const TensorPoints& tensor_points, const Ranks& ranks,
-    const std::vector<std::string>& natural_groups, const NodeTies* ties) {
+    const std::vector<std::string>& natural_groups, const NodeTies* ties, Geometry geometry) {
   if (degree != 1 && degree != 2)
     throw InputError("finite elements of degree " + std::to_string(degree) +
                      " are not available; choose 1 or 2");
   auto space = std::make_shared<FiniteElementSpace<dim>>();
   space->degree = degree;
   space->ranks = ranks;
+  space->is_curved = mesh != nullptr && has_curved_cells(mesh->topology(), geometry);
+  ranks.broadcast(space->is_curved);
   const NaturalBoundary natural = number_dofs(mesh, tensor_points, natural_groups, ties, *space);
   if (space->n_free == 0)
     throw InputError(
         "no unknown is left for the finite element solution: every node of the mesh is on its "
         "boundary, so refine the mesh or use degree 2");
+  std::optional<CurvedPoints<dim>> curved;
+  if (space->is_curved) curved.emplace(mesh == nullptr ? nullptr : &mesh->topology(), *space);
   space->nodes_of_ranks = ranks.gather(space->nodes);
   locate_dofs(*space);
-  find_natural_facets(natural, *space);
+  if (space->is_curved) locate_curved_dofs(*space);
+  find_natural_facets(natural, curved ? &*curved : nullptr, *space);
   build_pattern(*space);
   find_entries(*space);
   return space;
@@ -153,9 +182,9 @@ template struct FiniteElementSpace<2>;
 template struct FiniteElementSpace<3>;
 template std::shared_ptr<const FiniteElementSpace<2>> make_finite_element_space(
     const Mesh<2>*, int, const TensorPoints&, const Ranks&, const std::vector<std::string>&,
-    const NodeTies*);
+    const NodeTies*, Geometry);
 template std::shared_ptr<const FiniteElementSpace<3>> make_finite_element_space(
     const Mesh<3>*, int, const TensorPoints&, const Ranks&, const std::vector<std::string>&,
-    const NodeTies*);
+    const NodeTies*, Geometry);
 
 }  // namespace smoothfem

@@ -22,28 +22,51 @@ struct ElementCells {
   std::size_t n_own = 0;  ///< these come first; the others belong to other ranks, but contribute to
                           ///< equations of this one
   std::vector<NodeIndex> vertices;  ///< local nodes in the element's order
+  /// Local points that determine the cells' mapping, in the order of ReferenceElement::mapping;
+  /// empty in straight-sided spaces, where they are the vertices.
+  std::vector<NodeIndex> curved_points{};
   std::vector<std::uint32_t> dofs;  ///< local dofs in the element's order
   std::vector<std::uint32_t>
       entries;  ///< n_dofs x n_dofs each: positions in the pattern's values;
                 ///< FiniteElementSpace::absent for rows of other ranks and for boundary dofs
   std::vector<std::uint32_t> kinds;  ///< of each cell: see cell_kinds
+  std::vector<CellIndex> numbers;    ///< of each cell in the mesh
 
   std::size_t n_cells() const { return vertices.size() / element.n_vertices; }
+  /// Returns the first point of a cell's mapping; the others follow.
+  const NodeIndex* mapping_points(std::size_t cell) const {
+    return curved_points.empty() ? &vertices[cell * element.n_vertices]
+                                 : &curved_points[cell * element.mapping.size()];
+  }
 };
 
 /// The facets of one element on which natural conditions hold; arrays run over the facets first.
 struct NaturalFacets {
   FacetElement element{};
-  std::vector<NodeIndex> vertices{};   ///< local nodes in the element's order, seen from outside
+  /// Local points that determine the mapping, in the element's order, seen from outside.
+  std::vector<NodeIndex> points{};
   std::vector<std::uint32_t> dofs{};   ///< local dofs in the element's order
   std::vector<std::uint32_t> kinds{};  ///< of the facets' cells
 };
+
+/// How cells of second order are mapped.
+enum class Geometry {
+  curved,   ///< by all their nodes
+  straight  ///< by their corners alone
+};
+
+/// A point of curved cells without a node: the weighted sum of other local points.
+using SubstitutePoint = std::vector<std::pair<NodeIndex, double>>;
 
 /// Data of continuous Lagrange elements of degree 1 or 2 on a mesh that do not depend on
 /// coordinates. Made once and used for every mesh of a smoothing run. Each rank holds the equations
 /// of its own dofs and all cells that contribute to them. Local dofs are numbered in this order:
 /// free ones of this rank's equations, free ones of other ranks in these equations, boundary dofs,
 /// tied dofs. On parts of the boundary with natural conditions dofs are free.
+///
+/// In a curved space the cells are mapped by all their nodes, corners and midside nodes, for
+/// elements of both degrees (isoparametric ones of degree 2, superparametric ones of degree 1).
+/// Local points are the local nodes, followed by the substitute points.
 template <int dim>
 struct FiniteElementSpace {
   static constexpr std::uint32_t absent = UINT32_MAX;
@@ -62,11 +85,17 @@ struct FiniteElementSpace {
       natural_facets;  ///< at least the facets that contribute to equations of this rank
   /// Local nodes whose mean is a dof's position: one node, or the ends of an edge, the corners of a
   /// face or of a cell.
+  /// (In curved cells this is so on the reference cell.)
   CompressedRows<NodeIndex> dof_nodes;
   std::vector<NodeIndex> nodes;  ///< the mesh's node of each local node
+  bool is_curved = false;
+  std::vector<SubstitutePoint> substitute_points;  ///< each of earlier points
+  std::vector<NodeIndex> curved_dof_points;        ///< the local point of each dof; curved spaces
   std::vector<NodeIndex>
       nodes_of_ranks;  ///< on the root: `nodes` of all ranks, one after the other
-  std::vector<std::uint32_t> vertex_dof;  ///< the dof at each local node; absent at unused nodes
+  /// The dof at each local node; absent at unused nodes, at midside nodes of straight spaces, and
+  /// at those where elements of this degree have no dof.
+  std::vector<std::uint32_t> vertex_dof;
 
   SparseMatrix pattern;                     ///< of this rank's equations: n_own x n_columns
   std::vector<std::size_t> column_numbers;  ///< number of each column among all free dofs
@@ -84,11 +113,11 @@ struct FiniteElementSpace {
   /// for columns that are not free.
   std::uint32_t entry(std::uint32_t row, std::uint32_t column) const;
 
-  /// Returns the coordinates of the local nodes. coordinates: of the mesh, needed on the root only.
-  /// Collective.
+  /// Returns the coordinates of the local points. coordinates: of the mesh, needed on the root
+  /// only. Collective.
   std::vector<Point<dim>> local_coordinates(std::span<const Point<dim>> coordinates) const;
 
-  /// Returns the coordinates of the local dofs from those of the local nodes.
+  /// Returns the coordinates of the local dofs from those of the local points.
   std::vector<Point<dim>> dof_points(std::span<const Point<dim>> local_coordinates) const;
 };
 
@@ -106,6 +135,9 @@ template <int dim>
 void require_finite_elements(const Topology& topology, int degree,
                              const std::vector<std::string>& natural_groups = {});
 
+/// True if a mesh has cells of second order that are mapped by all their nodes.
+bool has_curved_cells(const Topology& topology, Geometry geometry);
+
 /// Makes a space. mesh: needed on the root only, null elsewhere; its coordinates need not be valid.
 /// degree: 1 or 2. natural_groups: physical tags or names of the facets with natural conditions; on
 /// the rest of the boundary u is given. Collective.
@@ -114,10 +146,14 @@ void require_finite_elements(const Topology& topology, int degree,
 /// conditioned matrices depend on rounding, hence on the order; this one comes closest to the
 /// thesis' counts.) In volume meshes dofs are numbered part by part, which makes products faster.
 /// ties: on the root; null: none. Ties need degree 1. Throws InputError as require_finite_elements
-/// does, for ties with degree 2, and if no dof is free.
+/// does, for ties with degree 2 or in a curved space, and if no dof is free.
+///
+/// geometry: the space is curved if this is so and the mesh has cells of second order. Its linear
+/// cells then have the midside nodes of their neighbours, too.
 template <int dim>
 std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
     const Mesh<dim>* mesh, int degree, const TensorPoints& tensor_points, const Ranks& ranks = {},
-    const std::vector<std::string>& natural_groups = {}, const NodeTies* ties = nullptr);
+    const std::vector<std::string>& natural_groups = {}, const NodeTies* ties = nullptr,
+    Geometry geometry = Geometry::curved);
 
 }  // namespace smoothfem

@@ -41,7 +41,8 @@ std::map<std::vector<NodeIndex>, std::uint32_t> dofs_by_nodes(
 }  // namespace
 
 template <int dim>
-void find_natural_facets(const NaturalBoundary& natural, FiniteElementSpace<dim>& space) {
+void find_natural_facets(const NaturalBoundary& natural, CurvedPoints<dim>* curved,
+                         FiniteElementSpace<dim>& space) {
   if (natural.empty()) return;
   const auto nodes = local_nodes(natural, space);
   const auto dofs = dofs_by_nodes(nodes, space);
@@ -54,7 +55,7 @@ void find_natural_facets(const NaturalBoundary& natural, FiniteElementSpace<dim>
     if (vertices.size() == 4) std::swap(vertices[2], vertices[3]);  // deal.II's order
     auto& group = groups[vertices.size()];
     if (group.element.n_vertices == 0)
-      group.element = make_facet_element(vertices.size(), space.degree);
+      group.element = make_facet_element(vertices.size(), space.degree, space.is_curved);
     std::vector<std::uint32_t> of_facet;
     for (std::size_t i = 0; i < group.element.n_dofs; ++i) {
       std::vector<NodeIndex> around;
@@ -67,7 +68,10 @@ void find_natural_facets(const NaturalBoundary& natural, FiniteElementSpace<dim>
     // If dofs are missing, the facet's cell belongs to another rank and contributes to no equation
     // here.
     if (of_facet.size() < group.element.n_dofs) continue;
-    group.vertices.insert(group.vertices.end(), vertices.begin(), vertices.end());
+    if (curved != nullptr)
+      curved->append_facet(group.element.mapping, vertices, group.points);
+    else
+      group.points.insert(group.points.end(), vertices.begin(), vertices.end());
     group.dofs.insert(group.dofs.end(), of_facet.begin(), of_facet.end());
     group.kinds.push_back(natural.kinds()[f]);
   }
@@ -82,15 +86,16 @@ template <int dim>
 struct FacetPoint {
   Point<dim> position = Point<dim>::Zero(), normal;
 
-  FacetPoint(const FacetElement& element, std::size_t q, const NodeIndex* vertices,
+  FacetPoint(const FacetElement& element, std::size_t q, const NodeIndex* points,
              const std::vector<Point<dim>>& x) {
     std::array<Point<dim>, dim - 1> tangents;
     tangents.fill(Point<dim>::Zero());
-    for (std::size_t v = 0; v < element.n_vertices; ++v) {
-      const std::size_t k = q * element.n_vertices + v;
-      position += element.rule.geometry[k] * x[vertices[v]];
+    const std::size_t n_points = element.mapping.size();
+    for (std::size_t p = 0; p < n_points; ++p) {
+      const std::size_t k = q * n_points + p;
+      position += element.rule.geometry[k] * x[points[p]];
       for (std::size_t d = 0; d + 1 < dim; ++d)
-        tangents[d] += element.rule.geometry_gradient[(dim - 1) * k + d] * x[vertices[v]];
+        tangents[d] += element.rule.geometry_gradient[(dim - 1) * k + d] * x[points[p]];
     }
     if constexpr (dim == 2)
       normal = {tangents[0].y(), -tangents[0].x()};
@@ -108,9 +113,9 @@ void add_natural_load(const FiniteElementSpace<dim>& space, const std::vector<Po
                       Eigen::VectorXd& right_hand_side) {
   for (const auto& group : space.natural_facets) {
     const FacetElement& element = group.element;
-    for (std::size_t f = 0; f * element.n_vertices < group.vertices.size(); ++f)
+    for (std::size_t f = 0; f < group.kinds.size(); ++f)
       for (std::size_t q = 0; q < element.rule.n_points; ++q) {
-        const FacetPoint<dim> at(element, q, &group.vertices[f * element.n_vertices], x);
+        const FacetPoint<dim> at(element, q, &group.points[f * element.mapping.size()], x);
         Point<dim> flux = solution.value_and_gradient(at.position).gradient;
         if (!materials.empty())
           flux = solution.materials[materials[group.kinds[f]]].diffusivity(at.position) * flux;
@@ -129,7 +134,8 @@ void add_natural_load(const FiniteElementSpace<dim>& space, const std::vector<Po
 }
 
 #define SMOOTHFEM_INSTANTIATE(dim)                                                               \
-  template void find_natural_facets(const NaturalBoundary&, FiniteElementSpace<dim>&);           \
+  template void find_natural_facets(const NaturalBoundary&, CurvedPoints<dim>*,                  \
+                                    FiniteElementSpace<dim>&);                                   \
   template void add_natural_load(const FiniteElementSpace<dim>&, const std::vector<Point<dim>>&, \
                                  const ManufacturedSolution<dim>&,                               \
                                  const std::vector<std::uint32_t>&, Eigen::VectorXd&);

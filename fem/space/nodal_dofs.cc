@@ -58,9 +58,9 @@ class PartDistributor {
   /// Returns the message for a rank. First the first number of a free dof, and the numbers of
   /// nodes, of own cells, of cells and of tied nodes. Then for each node its number in the mesh,
   /// its status on the rank, and its number among all free dofs or `absent`. Then for each cell its
-  /// kind and the number of its nodes, followed by these; the rank's own cells come first. Then for
-  /// each tied node its number here and that of its masters, followed by their numbers here and
-  /// weights. A single rank has all nodes, with their numbers.
+  /// kind, its number in the mesh and the number of its nodes, followed by these; the rank's own
+  /// cells come first. Then for each tied node its number here and that of its masters, followed by
+  /// their numbers here and weights. A single rank has all nodes, with their numbers.
   Numbers of_rank(std::size_t rank) const {
     std::vector<CellIndex> cells;
     for (std::size_t k = first_cell(rank); k < first_cell(rank + 1); ++k)
@@ -82,6 +82,7 @@ class PartDistributor {
     for (const CellIndex cell : cells) {
       const auto nodes = topology_.cell_nodes(cell);
       of_cells.push_back(kinds_[cell]);
+      of_cells.push_back(cell);
       of_cells.push_back(static_cast<std::uint32_t>(nodes.size()));
       for (const NodeIndex node : nodes) {
         if (local[node] == absent) add_node(node);
@@ -230,6 +231,7 @@ class SpaceFiller {
     const std::uint32_t* next = of_cells_;
     for (std::size_t c = 0; c < n_cells_; ++c) {
       const std::uint32_t kind = *next++;
+      const CellIndex number = *next++;
       std::vector<NodeIndex> nodes(next + 1, next + 1 + *next);
       next += 1 + *next;
       auto& group = group_of(element_type(dim, nodes.size()), tensor_points);
@@ -240,6 +242,7 @@ class SpaceFiller {
         for (std::size_t k = 2; k + 1 < nodes.size(); k += 4) std::swap(nodes[k], nodes[k + 1]);
       group.n_own += c < n_own_cells_;
       group.kinds.push_back(kind);
+      group.numbers.push_back(number);
       for (const NodeIndex node : nodes) group.dofs.push_back(dof_of_node_[node]);
       group.vertices.insert(group.vertices.end(), nodes.begin(), nodes.end());
     }
@@ -253,7 +256,7 @@ class SpaceFiller {
   /// Returns the position of the ties in the message.
   const std::uint32_t* ties() const {
     const std::uint32_t* next = of_cells_;
-    for (std::size_t c = 0; c < n_cells_; ++c) next += 2 + next[1];
+    for (std::size_t c = 0; c < n_cells_; ++c) next += 3 + next[2];
     return next;
   }
 
@@ -306,7 +309,8 @@ class SpaceFiller {
       if (group.element.type == type) return group;
     auto& group = space_.groups.emplace_back();
     group.element = make_reference_element(
-        type, 1, dim == 2 ? tensor_points.quadrilateral : tensor_points.hexahedron);
+        type, 1, dim == 2 ? tensor_points.quadrilateral : tensor_points.hexahedron,
+        space_.is_curved);
     return group;
   }
 

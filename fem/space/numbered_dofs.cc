@@ -208,6 +208,7 @@ class SpaceReader {
         group.vertices.push_back(local_node(cell, v));
       for (const Index dof : indices) group.dofs.push_back(local_[position(dof)]);
       group.kinds.push_back(cell->material_id());
+      group.numbers.push_back(static_cast<CellIndex>(cell->id().get_coarse_cell_id()));
     };
     for_each_cell(true, append);
     for (auto& group : space_.groups) group.n_own = group.n_cells();
@@ -262,14 +263,23 @@ NaturalBoundary number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_po
     throw InputError(
         "finite elements of degree 2 have no constraints for hanging nodes and periodic partners: "
         "use degree 1");
+  if (has_ties && space.is_curved)
+    throw InputError(
+        "curved cells have no constraints for hanging nodes and periodic partners: write 'set "
+        "geometry = straight'");
   if (has_ties || !is_for_deal_ii(mesh, space.ranks)) {
     number_nodal_dofs(mesh == nullptr ? nullptr : &mesh->topology(), tensor_points, natural, ties,
                       space);
     return natural;
   }
   const int n_points = dim == 2 ? tensor_points.quadrilateral : tensor_points.hexahedron;
+  // In space all cells have one type. Tables of curved cells of the other one would take longer
+  // than all else.
+  ElementType of_cells = mesh == nullptr ? ElementType::polygon : mesh->topology().cell_type(0);
+  space.ranks.broadcast(of_cells);
   for (const ElementType type : element_types<dim>)
-    space.groups.emplace_back().element = make_reference_element(type, space.degree, n_points);
+    space.groups.emplace_back().element = make_reference_element(
+        type, space.degree, n_points, space.is_curved && (dim == 2 || type == of_cells));
   const auto triangulation = make_triangulation(mesh, space.ranks);
   dealii::DoFHandler<dim> dofs(*triangulation);
   distribute_dofs(dofs, space.degree);

@@ -9,7 +9,7 @@
 #include "fem/assembly/error_norms.h"
 #include "fem/elements/reference_element.h"
 #include "fem/tests/fe_values_oracle.h"
-#include "fem/tests/unit_mesh.h"
+#include "fem/tests/second_order.h"
 
 namespace smoothfem {
 namespace {
@@ -163,6 +163,53 @@ TEST_P(AgainstFEValuesTest, NormsAgreeWithIntegrateDifference) {
         1e-15);
   };
   GetParam().on_mesh(4, 3, 0.3, check);
+}
+
+TEST_P(AgainstFEValuesTest, MatrixAndErrorsAgreeOnCurvedCells) {
+  const auto check = [&]<int dim>(const Mesh<dim>& linear) {
+    const bool simplices = linear.topology().cell_nodes(0).size() == dim + 1;
+    const auto mesh = second_order(linear, !simplices, shell_of_unit<dim>);
+    const auto space =
+        make_finite_element_space(&mesh, GetParam().degree, TensorPoints{.hexahedron = 4});
+    const auto x = space->local_coordinates(mesh.coordinates());
+    const auto& solution = manufactured_solution<dim>("sine");
+    PoissonSystem system = make_system(*space);
+    assemble(*space, x, solution, Load::none, system);
+
+    const auto degree = static_cast<unsigned int>(GetParam().degree);
+    Oracle<dim> oracle(mesh, degree);
+    oracle.use_midside_nodes(mesh);
+    // The integrands are rational: both sides need the same rule.
+    const auto rule = oracle_rule<dim>(simplices, 2, true);
+    const unsigned int n = oracle.dofs().n_dofs();
+    dealii::FullMatrix<double> stiffness(n, n);
+    oracle.for_each_cell(rule, [&](const auto& values, const auto& indices) {
+      for (const unsigned int q : values.quadrature_point_indices())
+        for (const unsigned int i : values.dof_indices())
+          for (const unsigned int j : values.dof_indices())
+            stiffness(indices[i], indices[j]) +=
+                values.shape_grad(i, q) * values.shape_grad(j, q) * values.JxW(q);
+    });
+    const auto points = space->dof_points(x);
+    const auto same = same_dofs(oracle, points);
+    Eigen::VectorXd u_h(static_cast<Eigen::Index>(points.size()));
+    dealii::Vector<double> same_u_h(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      u_h[static_cast<Eigen::Index>(i)] = same_u_h[same[i]] =
+          std::cos(7.0 * static_cast<double>(i));
+      for (std::size_t j = 0; i < space->n_free && j < space->n_free; ++j)
+        EXPECT_NEAR(system.matrix.coeff(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)),
+                    stiffness(same[i], same[j]), 1e-12);
+    }
+    const auto norms = error_norms(*space, x, solution, u_h, u_h);
+    EXPECT_NEAR(
+        norms.l2_error / oracle.error(solution, same_u_h, dealii::VectorTools::L2_norm, rule), 1.0,
+        1e-12);
+    EXPECT_NEAR(
+        norms.h1_error / oracle.error(solution, same_u_h, dealii::VectorTools::H1_norm, rule), 1.0,
+        1e-12);
+  };
+  GetParam().on_mesh(4, 2, 0.2, check);
 }
 
 /// Integral of x^a y^b z^c over the reference simplex: a! b! c! / (a + b + c + dim)!.

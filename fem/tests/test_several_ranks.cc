@@ -14,7 +14,7 @@
 #include "fem/poisson_solver.h"
 #include "fem/ranks/mpi_session.h"
 #include "fem/solvers/mesh_solver.h"
-#include "fem/tests/unit_mesh.h"
+#include "fem/tests/second_order.h"
 
 namespace smoothfem {
 namespace {
@@ -94,6 +94,33 @@ TEST_P(SeveralRanksTest, RecordAndNodalErrorsEqualThoseOfOneProcess) {
       ASSERT_EQ(errors.size(), expected.size());
       for (std::size_t i = 0; i < errors.size(); ++i)
         EXPECT_NEAR(errors[i], expected[i], 1e-8 * record.e_max);
+    });
+}
+
+TEST_P(SeveralRanksTest, CurvedCellsEqualThoseOfOneProcess) {
+  for (const bool complete : {false, true})
+    GetParam().on_mesh(8, 4, 0.2, [&]<int dim>(const Mesh<dim>& linear) {
+      auto mesh = second_order(with_groups(linear), complete, shell_of_unit<dim>);
+      const auto& solution = manufactured_solution<dim>("sine");
+      auto natural = options();
+      natural.load = Load::quadrature;
+      natural.natural_groups = {"right"};
+      PoissonSolver<dim> solver(on_root(mesh), natural, all_ranks());
+      const auto record = solver.solve(mesh.coordinates(), solution);
+      const auto errors = solver.nodal_errors();
+      if (all_ranks().is_root()) {
+        PoissonSolver<dim> single(&mesh, natural);
+        expect_same(record, single.solve(mesh.coordinates(), solution));
+        const auto expected = single.nodal_errors();
+        ASSERT_EQ(errors.size(), expected.size());
+        for (std::size_t i = 0; i < errors.size(); ++i)
+          EXPECT_NEAR(errors[i], expected[i], 1e-8 * record.e_max);
+      }
+      // All ranks throw for a folded cell of one of them.
+      const NodeIndex node = mesh.topology().midside_nodes(0)[0];
+      mesh.coordinates()[node] = mesh.coordinates()[mesh.topology().cell_nodes(0)[2]];
+      EXPECT_THAT([&] { (void)solver.solve(mesh.coordinates(), solution); },
+                  ThrowsMessage<CellError>(HasSubstr("is folded inside")));
     });
 }
 

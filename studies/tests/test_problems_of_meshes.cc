@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "fem/tests/unit_mesh.h"
+#include "fem/tests/second_order.h"
 #include "studies/framework/run/constraints/hanging_nodes.h"
 #include "studies/framework/run/constraints/periodic_nodes.h"
 #include "studies/framework/run/run_study.h"
@@ -90,6 +90,35 @@ TEST_F(ProblemOfMesh, GroupsHaveTheirDiffusivity) {
                   " set diffusivity group=8 = 5\nend\n");
   EXPECT_LT(largest("both", "l2_error"), 1e-10);
   EXPECT_NE(content_of(file("both") / "summary.csv"), content_of(file("one") / "summary.csv"));
+}
+
+/// Degree 2 has linear functions on curved cells, and quadratic ones on straight cells.
+TEST_F(ProblemOfMesh, CellsOfSecondOrderAreCurvedUnlessTheGeometryIsStraight) {
+  write_mesh(file("mesh.msh"),
+             second_order(unit_square(4, Cells::mixed, 0.1), false, shell_of_unit<2>));
+  const auto problem = [](const std::string& u) {
+    return "set degrees = 2\nsubsection solution\n set u = " + u + "\nend\n";
+  };
+  const std::string straight = "subsection finite elements\n set geometry = straight\nend\n";
+  run("linear", problem("x + 2*y"));
+  EXPECT_LT(largest("linear", "l2_error"), 1e-10);
+  run("curved", problem("x^2 - x*y"));
+  EXPECT_GT(largest("curved", "l2_error"), 1e-6);
+  EXPECT_THAT(content_of(file("curved") / "provenance.json"),
+              HasSubstr("\"geometry\": \"curved\""));
+  run("straight", problem("x^2 - x*y") + straight);
+  EXPECT_LT(largest("straight", "l2_error"), 1e-10);
+  EXPECT_THAT(content_of(file("straight") / "provenance.json"),
+              HasSubstr("\"geometry\": \"straight\""));
+  // Results of one geometry are not taken for those of the other.
+  run("curved", problem("x^2 - x*y") + straight);
+  EXPECT_LT(largest("curved", "l2_error"), 1e-10);
+  EXPECT_THAT(refused(problem("x") + "set refined degrees = 2\n"),
+              testing::AllOf(HasSubstr("mesh mesh"), HasSubstr("refined"), HasSubstr("straight")));
+  EXPECT_THAT(
+      refused(problem("x") +
+              "set solvers = poisson, stock\nsubsection solver stock\n set type = deal.II\nend\n"),
+      testing::AllOf(HasSubstr("deal.II"), HasSubstr("set geometry = straight")));
 }
 
 /// A facet approximates the circle with an error of the order 2, like the elements.

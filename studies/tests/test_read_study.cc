@@ -245,6 +245,14 @@ TEST_F(StudyFile, UnknownKeysAndSubsectionsAreFoundWithTheirLine) {
                   "lambda");
 }
 
+TEST_F(StudyFile, GeometryOfCellsOfSecondOrder) {
+  const std::string in_finite_elements = one_mesh + "subsection finite elements\n set geometry = ";
+  EXPECT_EQ(read(one_mesh).finite_elements.geometry, Geometry::curved);
+  EXPECT_EQ(read(in_finite_elements + "straight\nend\n").finite_elements.geometry,
+            Geometry::straight);
+  expect_error_at(6, in_finite_elements + "bent\nend\n", "it has to be one of curved, straight");
+}
+
 TEST_F(StudyFile, BadValuesAreFoundWithTheirLine) {
   expect_error_at(5, one_mesh + "set record every = often\n", "often");
   expect_error_at(5, one_mesh + "set record every = 0\n", "record every");

@@ -230,6 +230,8 @@ void read_problem(ParameterHandler& p, const StudyText& text, Study& study) {
   {
     const Subsection subsection(p, "finite elements");
     study.finite_elements.load = p.get("load") == "nodal" ? Load::nodal : Load::quadrature;
+    study.finite_elements.geometry =
+        p.get("geometry") == "straight" ? Geometry::straight : Geometry::curved;
     study.finite_elements.tensor_points = {static_cast<int>(p.get_integer("quadrilateral points")),
                                            hexahedron_points(p.get("hexahedron points"))};
     study.finite_elements.cg_tolerance = p.get_double("cg tolerance");

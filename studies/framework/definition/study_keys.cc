@@ -269,6 +269,8 @@ void declare_problem(ParameterHandler& p) {
         "load", "quadrature", Patterns::Selection("quadrature|nodal"),
         "quadrature: integrals of f, the Galerkin load; nodal: f is interpolated first, "
         "as in the protocol of Chapter 6.");
+    p.declare_entry("geometry", "curved", Patterns::Selection("curved|straight"),
+                    "Cells of second order: mapped by all their nodes, or by their corners alone.");
     p.declare_entry("quadrilateral points", "8", Patterns::Integer(1, 20),
                     "Gauss points per direction on quadrilaterals.");
     p.declare_entry("hexahedron points", "auto", Patterns::Selection(hexahedron_points()),

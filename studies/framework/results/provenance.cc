@@ -174,6 +174,7 @@ Json describe_problem(const ProblemFacts& problem) {
   }
   json["natural"] = problem.natural;
   json["load"] = problem.load;
+  if (!problem.geometry.empty()) json["geometry"] = problem.geometry;
   return json;
 }
 

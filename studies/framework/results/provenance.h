@@ -34,6 +34,7 @@ struct ProblemFacts {
   std::vector<Solution> solutions;
   std::vector<std::string> natural;  ///< groups of the boundary with natural conditions
   std::string load;                  ///< "nodal" or "quadrature"
+  std::string geometry{};  ///< "curved" or "straight"; empty: no mesh has cells of second order
 };
 
 /// The content of provenance.json, except facts of the program and the machine.

@@ -57,7 +57,10 @@ class StudyRun {
     require_unchanged_meshes(earlier_, options_.out);
     times_.measure("meshes", [&] {
       prepare_meshes();
-      if (!study_.degrees.empty()) require_support_of_ties();
+      if (!study_.degrees.empty()) {
+        require_support_of_ties();
+        require_support_of_curved_cells();
+      }
       if (needs_solutions(study_)) make_solutions();
     });
     changes_ =
@@ -133,6 +136,28 @@ class StudyRun {
     }
   }
 
+  /// Throws InputError if the study asks for what curved cells do not support.
+  void require_support_of_curved_cells() {
+    for (auto& mesh : data_.meshes) {
+      if (!has_curved_cells(mesh.mesh.topology(), study_.finite_elements.geometry)) continue;
+      const auto refuse = [&](const std::string& what) {
+        throw InputError("mesh " + mesh.description.name + " has cells of second order, " + what +
+                         ", or write 'set geometry = straight' in 'subsection finite elements'");
+      };
+      if (mesh.ties)
+        refuse("which have no constraints for hanging or periodic nodes; leave them out");
+      if (!study_.refined_degrees.empty())
+        refuse("which refined meshes do not support; leave 'refined degrees' out");
+      for (const auto& method : study_.methods)
+        if (method.needs_problem(study_.dimensions)) {
+          mesh.changes.push_back(
+              "methods that move nodes by the solution see straight-sided cells");
+          progress_.say(mesh.origin + ": " + mesh.changes.back());
+          break;
+        }
+    }
+  }
+
   /// Throws InputError if a solver cannot be used on a mesh. One that fails on it gets rows with
   /// the reason later.
   void require_support_of_solvers() {
@@ -188,9 +213,11 @@ class StudyRun {
   std::shared_ptr<const Problem<spacedim>> problem_of(std::size_t m, const StudyMethod& method) {
     if constexpr (dim == spacedim) {
       if (const StudySolver* solver = solver_smoothed_for(study_, method))
-        return make_solver_problem<dim>(data_.meshes[m].mesh, [this, m, solver](int degree) {
-          return solver_on_mesh(data_, m, {solver, with_degree(*solver, degree)}, nullptr);
-        });
+        return make_solver_problem<dim>(
+            data_.meshes[m].for_solvers(data_.meshes[m].mesh.copied_coordinates()),
+            [this, m, solver](int degree) {
+              return solver_on_mesh(data_, m, {solver, with_degree(*solver, degree)}, nullptr);
+            });
       if (data_.solutions.empty()) return nullptr;
       std::vector<std::size_t> chosen;  // indices of the study's solutions
       const auto all = solutions_of(study_);
@@ -551,6 +578,10 @@ class StudyRun {
         for (const StudySolution* solution : solutions_of(study_))
           facts.solutions.push_back(
               {solution->label, u_text<dim>(*solution), diffusivity_text(*solution)});
+    for (const auto& mesh : data_.meshes)
+      if (has_curved_cells(mesh.mesh.topology(), Geometry::curved))
+        facts.geometry =
+            study_.finite_elements.geometry == Geometry::curved ? "curved" : "straight";
     return facts;
   }
 

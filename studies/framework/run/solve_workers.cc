@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/solve_workers.h"
 
+#include <limits>
 #include <mutex>
 
 #include "fem/materials/cell_kinds.h"
@@ -57,6 +58,29 @@ SolutionRecord solve_refined(const StudyData<dim>& data, const SolveTask& task,
   return record;
 }
 
+/// Calls solve() for a record of this degree. A curved cell that is folded inside makes it that of
+/// a failure.
+template <class Solve>
+SolutionRecord solve_unless_folded(int degree, const Solve& solve) {
+  try {
+    return solve();
+  } catch (const CellError& folded) {
+    SolutionRecord record;
+    record.degree = degree;
+    record.status = std::string("failed: ") + folded.what();
+    return record;
+  }
+}
+
+/// Returns the nodal errors of a record, which nodal_errors() returns if it has any.
+template <class NodalErrors>
+std::vector<double> errors_of(const SolutionRecord& record, std::size_t n_nodes,
+                              const NodalErrors& nodal_errors) {
+  if (record.status.starts_with("failed"))
+    return std::vector<double>(n_nodes, std::numeric_limits<double>::quiet_NaN());
+  return nodal_errors();
+}
+
 /// The solvers of one worker that are not Poisson's. Only the last one is kept.
 template <int dim>
 class OtherSolvers {
@@ -72,15 +96,14 @@ class OtherSolvers {
     SolutionRecord record;
     record.degree = chosen.degree;
     try {
-      const auto& initial = data_.meshes[job.mesh].mesh;
       if (!solver_ || mesh_ != job.mesh || solve_ != job.solve) {
         solver_.reset();
         solver_ = solver_on_mesh(data_, job.mesh, chosen, team_);
         mesh_ = job.mesh;
         solve_ = job.solve;
       }
-      SolverResult result = solver_->solve(Mesh<dim>(
-          initial.shared_topology(), data_.coordinates_of(task), initial.shared_constraints()));
+      SolverResult result =
+          solver_->solve(data_.meshes[job.mesh].for_solvers(data_.coordinates_of(task)));
       record.numbers = std::move(result.numbers);
       record.status = std::move(result.status);
     } catch (const SolverFailure& failure) {
@@ -142,7 +165,9 @@ class PlanarWorker {
                               })
               : solve(task);
       if (keeps_nodal_errors(data_.study, task))
-        data_.kept.save_numbers(job.name, task.record, solver_->nodal_errors());
+        data_.kept.save_numbers(job.name, task.record,
+                                errors_of(solution, data_.meshes[job.mesh].mesh.n_nodes(),
+                                          [&] { return solver_->nodal_errors(); }));
     }
     finish_task(task, std::move(solution), seconds, {}, data_.kept);
   }
@@ -156,8 +181,10 @@ class PlanarWorker {
       mesh_ = job.mesh;
       solve_ = job.solve;
     }
-    return solver_->solve(data_.coordinates_of(task), data_.solutions[job.mesh][job.solution],
-                          task.is_result);
+    return solve_unless_folded(data_.solves[job.solve].degree, [&] {
+      return solver_->solve(data_.coordinates_of(task), data_.solutions[job.mesh][job.solution],
+                            task.is_result);
+    });
   }
 
   StudyData<2>& data_;
@@ -190,7 +217,9 @@ class TeamWorker {
                                      })
                      : solve(task);
       if (keeps_nodal_errors(data_.study, task))
-        data_.kept.save_numbers(job.name, task.record, team_.nodal_errors());
+        data_.kept.save_numbers(job.name, task.record,
+                                errors_of(solution, data_.meshes[job.mesh].mesh.n_nodes(),
+                                          [&] { return team_.nodal_errors(); }));
     }
     const bool has_eigenvectors = !job.is_refined && data_.solves[job.solve].solver == nullptr;
     finish_task(task, std::move(solution), seconds,
@@ -205,8 +234,10 @@ class TeamWorker {
     if (other_solver) team_.make_solver(data_.meshes[job.mesh].mesh, options_of(data_, job));
     if (job_ != &job) team_.set_eigenvectors(job.solved.eigenvectors);
     job_ = &job;
-    return team_.solve(data_.coordinates_of(task), data_.solutions[job.mesh], job.solution,
-                       task.is_result);
+    return solve_unless_folded(data_.solves[job.solve].degree, [&] {
+      return team_.solve(data_.coordinates_of(task), data_.solutions[job.mesh], job.solution,
+                         task.is_result);
+    });
   }
 
   StudyData<3>& data_;
@@ -251,6 +282,11 @@ std::unique_ptr<MeshSolver<dim>> solver_on_mesh(const StudyData<dim>& data, std:
                                                 const StudySolve& solve, SolverTeam* team) {
   auto solver = solve.solver->template make<dim>();
   try {
+    if (!solve.solver->traits.takes_curved_cells &&
+        has_curved_cells(data.meshes[mesh].mesh.topology(), data.study.finite_elements.geometry))
+      throw InputError(
+          "it maps cells of second order by their corners alone; write 'set geometry = straight' "
+          "in 'subsection finite elements', or leave it out of 'solvers'");
     if (solve.solver->traits.needs_solution) solver->use_solution(data.solutions[mesh].front());
     if (const auto& ties = data.meshes[mesh].ties) {
       if (!solve.solver->traits.takes_ties)
@@ -262,7 +298,8 @@ std::unique_ptr<MeshSolver<dim>> solver_on_mesh(const StudyData<dim>& data, std:
         solver = team->shared(std::move(solver),
                               static_cast<std::size_t>(solve.solver - data.study.solvers.data()));
     }
-    solver->initialize(data.meshes[mesh].mesh, solve.degree);
+    const auto& prepared = data.meshes[mesh];
+    solver->initialize(prepared.for_solvers(prepared.mesh.copied_coordinates()), solve.degree);
   } catch (const SolverFailure&) {
     throw;
   } catch (const InputError& error) {

@@ -197,10 +197,7 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
                                          const std::filesystem::path& mesh_dir,
                                          const KeptResults* kept) {
   const Source source = source_of(description, mesh_dir);
-  // The text format of planar and volume meshes does not store surfaces.
-  const std::string initial =
-      "meshes/" + description.name + "_initial" + (dim == spacedim ? ".mesh" : ".vtk");
-  // It does not store what a mesh says besides its cells either.
+  // The text format of planar and volume meshes does not store what a mesh says besides its cells.
   const bool has_more = !source.file.empty() ||
                         (!description.domain.empty() && find_domain(description.domain).has_groups);
   const std::string source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file);
@@ -240,6 +237,10 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
                                 bit(FixedReason::hanging) | bit(FixedReason::periodic));
   if (any_node_has(mesh.topology(), implied))
     changes.push_back(fixed_reasons_text(mesh.topology()));
+  // It does not store surfaces and some cells of second order either.
+  const bool in_text = dim == spacedim && mesh.topology().midside() == nullptr;
+  const std::string initial =
+      "meshes/" + description.name + "_initial" + (in_text ? ".mesh" : ".vtk");
   MeshFacts facts{.description = description,
                   .n_nodes = mesh.n_nodes(),
                   .n_cells = mesh.n_cells(),
@@ -251,8 +252,12 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
                   .changes = std::move(changes),
                   .source_sha256 = source_sha256,
                   .sha256 = {}};
-  return {std::move(facts), std::move(mesh), std::move(ties), std::move(kept_name),
-          found.has_value()};
+  const bool is_straight = study.finite_elements.geometry == Geometry::straight;
+  auto of_solvers = is_straight && mesh.topology().midside() != nullptr
+                        ? mesh.topology().without_midside()
+                        : mesh.shared_topology();
+  return {std::move(facts),     std::move(mesh),   std::move(ties),
+          std::move(kept_name), found.has_value(), std::move(of_solvers)};
 }
 
 void require_unchanged_meshes(const EarlierRun& run, const std::filesystem::path& out) {

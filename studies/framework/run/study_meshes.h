@@ -19,6 +19,14 @@ struct PreparedMesh : MeshFacts {
   std::shared_ptr<const NodeTies> ties{};  ///< constraints of the finite elements; null: none
   std::string kept_name{};  ///< of its kept file; empty: none, because it is read or a surface
   bool is_kept = false;     ///< that file is there
+  /// The topology that solvers get: that of the mesh, but without midside nodes if the study's
+  /// geometry is straight.
+  std::shared_ptr<const Topology> of_solvers{};
+
+  /// Returns the mesh that solvers get, with these nodes.
+  Mesh<dim, spacedim> for_solvers(std::vector<Point<spacedim>> coordinates) const {
+    return {of_solvers, std::move(coordinates), mesh.shared_constraints(), mesh.shared_targets()};
+  }
 };
 
 /// Reads or generates one mesh, and distorts it if the study says so. mesh_dir: folder of published

@@ -33,8 +33,8 @@ bool is_number_name(const std::string& name) {
 template <int dim>
 class CommandSolver final : public MeshSolver<dim> {
  public:
-  /// The program gets the mesh with its hanging nodes and periodic partners.
-  SolverTraits traits() const override { return {.takes_ties = true}; }
+  /// The program gets the mesh with its hanging nodes, periodic partners and midside nodes.
+  SolverTraits traits() const override { return {.takes_ties = true, .takes_curved_cells = true}; }
 
   Parameters parameters() override {
     return {
@@ -106,7 +106,12 @@ class CommandSolver final : public MeshSolver<dim> {
     return numbers;
   }
 
-  void initialize(const Mesh<dim>& /*mesh*/, int /*degree*/) override {}
+  void initialize(const Mesh<dim>& mesh, int /*degree*/) override {
+    if (format_ == "vtk" && mesh.topology().midside() != nullptr)
+      throw InputError(
+          "the format 'vtk' of its mesh file has linear cells only, but the mesh has cells of "
+          "second order; write 'set format = vtu' or 'set format = msh' for the solver");
+  }
 
   SolverResult solve(const Mesh<dim>& mesh) override {
     const ScratchFolder scratch;

@@ -85,6 +85,7 @@ void add_labels(const MeshLabels& labels, Ingredients& made_of) {
   made_of.add_bytes("cell tags", labels.cell_tags);
   add_rows("labelled facets", labels.facets, made_of);
   made_of.add_bytes("facet tags", labels.facet_tags);
+  if (labels.midside) add_rows("midside nodes", labels.midside->of_cells, made_of);
   for (const auto& [key, name] : labels.names)
     made_of.add("group " + std::to_string(key.first) + " " + std::to_string(key.second), name);
   // A file that says nothing more is as good as none.
@@ -115,6 +116,8 @@ void add_solution(const StudySolution& solution, Ingredients& made_of) {
 /// Adds the options of all degrees and meshes.
 void add_options(const PoissonOptions& options, Ingredients& made_of) {
   made_of.add("load", static_cast<int>(options.load));
+  // Names of results with curved cells, and of meshes without any, stay the same.
+  if (options.geometry == Geometry::straight) made_of.add("geometry", "straight");
   for (const auto& group : options.natural_groups) made_of.add("natural", group);
   made_of.add("quadrilateral points", options.tensor_points.quadrilateral);
   made_of.add("hexahedron points", options.tensor_points.hexahedron);

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/space/curved_points.h"
+
+#include <algorithm>
+
+#include "smoothing/mesh/volume_elements.h"
+
+namespace smoothfem {
+
+bool has_curved_cells(const Topology& topology, Geometry geometry) {
+  return geometry == Geometry::curved && topology.midside() != nullptr &&
+         topology.midside()->of_cells.n_entries() > 0;
+}
+
+template <int dim>
+typename CurvedPoints<dim>::Key CurvedPoints<dim>::key_of(std::vector<NodeIndex> corners) {
+  std::sort(corners.begin(), corners.end());
+  Key key;
+  key.fill(FiniteElementSpace<dim>::absent);
+  std::copy(corners.begin(), corners.end(), key.begin());
+  return key;
+}
+
+/// Returns the keys of all midside nodes of a mesh, each followed by its node. Nodes of edges and
+/// faces are repeated.
+template <int dim>
+std::vector<NodeIndex> CurvedPoints<dim>::midside_nodes_by_key(const Topology& topology) {
+  std::vector<NodeIndex> numbers;
+  for (CellIndex c = 0; c < topology.n_cells(); ++c) {
+    const auto corners = topology.cell_nodes(c), nodes = topology.midside_nodes(c);
+    if (nodes.empty()) continue;
+    const auto counts = midside_counts(dim, corners.size(), nodes.size());
+    auto next = nodes.begin();
+    const auto add = [&](const Key& key) {
+      numbers.insert(numbers.end(), key.begin(), key.end());
+      numbers.push_back(*next++);
+    };
+    for_each_edge(dim, corners.size(), [&](std::size_t a, std::size_t b) {
+      add(key_of({corners[a], corners[b]}));
+    });
+    if (counts.faces > 0)
+      for_each_quadrilateral_face(corners.size(), [&](const LocalFace& face) {
+        const auto& k = face.nodes;
+        add(key_of({corners[k[0]], corners[k[1]], corners[k[2]], corners[k[3]]}));
+      });
+    if (counts.cell > 0) add(key_of({c}));
+  }
+  return numbers;
+}
+
+template <int dim>
+typename CurvedPoints<dim>::Key CurvedPoints<dim>::key_in_cell(
+    const ElementCells& group, std::size_t cell, const std::vector<std::size_t>& place) const {
+  const std::size_t n_vertices = group.element.n_vertices;
+  if (place.size() == n_vertices) return key_of({group.numbers[cell]});
+  std::vector<NodeIndex> corners;
+  for (const std::size_t v : place)
+    corners.push_back(space_.nodes[group.vertices[cell * n_vertices + v]]);
+  return key_of(std::move(corners));
+}
+
+/// Finds the local numbers of the midside nodes on this rank's cells. One process has all nodes of
+/// the mesh, with their numbers.
+template <int dim>
+void CurvedPoints<dim>::find_nodes(const Map& of_mesh) {
+  if (space_.ranks.size() == 1) {
+    points_ = of_mesh;
+    return;
+  }
+  for (const auto& group : space_.groups)
+    for (std::size_t cell = 0; cell < group.n_cells(); ++cell)
+      for (std::size_t k = group.element.n_vertices; k < group.element.mapping.size(); ++k) {
+        const Key key = key_in_cell(group, cell, group.element.mapping.places[k]);
+        const auto found = of_mesh.find(key);
+        if (found != of_mesh.end() &&
+            points_.emplace(key, static_cast<NodeIndex>(space_.nodes.size())).second)
+          space_.nodes.push_back(found->second);
+      }
+}
+
+/// Appends the k-th point of a cell or facet, whose earlier points are the last ones of the list.
+template <int dim>
+void CurvedPoints<dim>::append(const MappingPoints& mapping, std::size_t k, const Key& key,
+                               std::vector<NodeIndex>& points) {
+  const auto [found, is_new] = points_.emplace(
+      key, static_cast<NodeIndex>(space_.nodes.size() + space_.substitute_points.size()));
+  if (is_new) {
+    auto& sum = space_.substitute_points.emplace_back();
+    for (const auto& [earlier, weight] : mapping.substitutes[k])
+      sum.emplace_back(points[points.size() - k + earlier], weight);
+  }
+  points.push_back(found->second);
+}
+
+template <int dim>
+CurvedPoints<dim>::CurvedPoints(const Topology* topology, FiniteElementSpace<dim>& space)
+    : space_(space) {
+  std::vector<NodeIndex> numbers;
+  if (topology != nullptr) numbers = midside_nodes_by_key(*topology);
+  space.ranks.broadcast(numbers);
+  Map of_mesh;
+  for (std::size_t i = 0; i < numbers.size(); i += 5)
+    of_mesh[{numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]}] = numbers[i + 4];
+  find_nodes(of_mesh);
+  for (auto& group : space.groups) {
+    const auto& element = group.element;
+    for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
+      const auto first =
+          group.vertices.begin() + static_cast<std::ptrdiff_t>(cell * element.n_vertices);
+      group.curved_points.insert(group.curved_points.end(), first,
+                                 first + static_cast<std::ptrdiff_t>(element.n_vertices));
+      for (std::size_t k = element.n_vertices; k < element.mapping.size(); ++k)
+        append(element.mapping, k, key_in_cell(group, cell, element.mapping.places[k]),
+               group.curved_points);
+    }
+  }
+}
+
+template <int dim>
+void CurvedPoints<dim>::append_facet(const MappingPoints& mapping,
+                                     std::span<const NodeIndex> vertices,
+                                     std::vector<NodeIndex>& points) {
+  points.insert(points.end(), vertices.begin(), vertices.end());
+  for (std::size_t k = vertices.size(); k < mapping.size(); ++k) {
+    std::vector<NodeIndex> corners;
+    for (const std::size_t v : mapping.places[k]) corners.push_back(space_.nodes[vertices[v]]);
+    append(mapping, k, key_of(std::move(corners)), points);
+  }
+}
+
+template class CurvedPoints<2>;
+template class CurvedPoints<3>;
+
+}  // namespace smoothfem

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "fem/space/finite_element_space.h"
+
+namespace smoothfem {
+
+/// Returns the position of a substitute point. points: of earlier local points.
+template <int dim>
+Point<dim> weighted_sum(const SubstitutePoint& sum, const std::vector<Point<dim>>& points) {
+  Point<dim> position = Point<dim>::Zero();
+  for (const auto& [point, weight] : sum) position += weight * points[point];
+  return position;
+}
+
+/// Numbers the local points of a curved space: finds the midside nodes and makes substitute points
+/// where there are none. Cells that share an edge or a face share its point, also if only one of
+/// them has a node there. So the mapped cells fit together.
+template <int dim>
+class CurvedPoints {
+ public:
+  /// topology: on the root, null elsewhere. Adds midside nodes to the nodes of the space, and fills
+  /// curved_points of its groups. Collective.
+  CurvedPoints(const Topology* topology, FiniteElementSpace<dim>& space);
+
+  /// Appends the points of the mapping of a facet of this rank's cells. vertices: local nodes in
+  /// the order of `mapping`.
+  void append_facet(const MappingPoints& mapping, std::span<const NodeIndex> vertices,
+                    std::vector<NodeIndex>& points);
+
+ private:
+  /// The corners of an edge or face by their numbers in the mesh, ascending, or the number of a
+  /// cell; followed by absent ones.
+  using Key = std::array<NodeIndex, 4>;
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      std::size_t hash = 0;
+      for (const NodeIndex number : key) hash = (hash ^ number) * 0x9e3779b97f4a7c15U;
+      return hash ^ (hash >> 32U);
+    }
+  };
+  using Map = std::unordered_map<Key, NodeIndex, Hash>;
+
+  static Key key_of(std::vector<NodeIndex> corners);
+  Key key_in_cell(const ElementCells& group, std::size_t cell,
+                  const std::vector<std::size_t>& place) const;
+  static std::vector<NodeIndex> midside_nodes_by_key(const Topology& topology);
+  void find_nodes(const Map& of_mesh);
+  void append(const MappingPoints& mapping, std::size_t k, const Key& key,
+              std::vector<NodeIndex>& points);
+
+  FiniteElementSpace<dim>& space_;
+  Map points_;  ///< local points of edges, faces and cells
+};
+
+}  // namespace smoothfem
