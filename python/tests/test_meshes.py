@@ -198,8 +198,8 @@ class Bridges(unittest.TestCase):
         with_sets.cell_sets = {"inlet": []}
         with self.assertWarnsRegex(UserWarning, "cell_sets are left out"):
             smoothfem.from_meshio(with_sets)
-        with_sets.cells = [Block("triangle6", [[0, 1, 2, 3, 0, 1]])]
-        with self.assertRaisesRegex(smoothfem.InputError, "triangle6"):
+        with_sets.cells = [Block("triangle10", [[0, 1, 2, 3, 0, 1, 2, 3, 0, 1]])]
+        with self.assertRaisesRegex(smoothfem.InputError, "triangle10"):
             smoothfem.from_meshio(with_sets)
 
     def test_nodes_of_each_type_are_in_order(self):
