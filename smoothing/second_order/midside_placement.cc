@@ -214,26 +214,31 @@ std::vector<double> MidsidePlacement<dim>::qualities(
 template <int dim>
 MidsideReport MidsidePlacement<dim>::place(Mesh<dim>& mesh, double floor,
                                            std::vector<double>& cell_quality) const {
-  constexpr std::uint8_t whole = 4;
+  constexpr std::uint8_t whole = 4, once = 1, done = 2;  // in a round
   MidsideReport report;
   std::vector<std::uint8_t> quarters(mesh.n_nodes(), 0);
   const auto x = mesh.coordinates();
   while (true) {
     place_all(mesh, quarters);
     auto is_bent = is_bent_;
+    std::vector<std::uint8_t> may_bend(mesh.n_nodes(), 0);
     for_each_node([&](const auto& node) {
-      if (has_moved(node, x)) is_bent[node.node] = quarters[node.node] > 0;
+      const NodeIndex i = node.node;
+      if (!has_moved(node, x)) return;
+      may_bend[i] = is_bent_[i] && quarters[i] < whole ? once : 0;
+      is_bent[i] = quarters[i] > 0;
     });
     cell_quality = qualities(mesh, is_bent);
     bool has_changed = false;
     for (const CellIndex c : bad_cells(cell_quality, floor)) {
       bool can_bend = false;
       for (const NodeIndex node : topology_->midside_nodes(c))
-        can_bend = can_bend || (quarters[node] < whole && is_bent_[node]);
-      for (const NodeIndex node : topology_->midside_nodes(c))
-        if (can_bend && quarters[node] < whole && is_bent_[node]) {
-          ++quarters[node];
-          has_changed = true;
+        if (may_bend[node]) {
+          can_bend = has_changed = true;
+          if (may_bend[node] == once) {
+            ++quarters[node];
+            may_bend[node] = done;
+          }
         }
       if (can_bend) continue;
       for (const NodeIndex node : topology_->cell_nodes(c))

@@ -75,7 +75,6 @@ class MidsidePlacement {
   /// Returns the straight place of a node plus a part of its initial offset.
   template <class Node>
   Point<dim> bent(const Node& node, Points x, double part) const;
-  /// Places all nodes. quarters: by node, the part of the initial curvature that it keeps.
   void find_bent_nodes();
   /// Returns the mean ratio of each curved cell. is_bent: flags of midside nodes that are not at
   /// their straight places.
@@ -83,6 +82,7 @@ class MidsidePlacement {
                                 const std::vector<std::uint8_t>& is_bent) const;
   /// Returns flags of the nodes on the boundary and on interfaces.
   std::vector<bool> nodes_on_facets() const;
+  /// Places all nodes. quarters: by node, the part of the initial curvature that it keeps.
   void place_all(Mesh<dim>& mesh, std::span<const std::uint8_t> quarters) const;
 
   std::vector<Point<dim>> initial_;
