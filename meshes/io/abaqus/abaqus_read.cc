@@ -564,6 +564,7 @@ const RegisteredFormat abaqus({.name = "abaqus",
                                .holds_physical_names = true,
                                .holds_numbers = true,
                                .holds_several_groups = true,
+                               .min_element_dimension = 3,
                                .recognizes = is_abaqus,
                                .read = read_abaqus,
                                .write = write_abaqus});
