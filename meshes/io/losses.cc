@@ -75,6 +75,8 @@ class Losses {
   }
 
   void find_elements() {
+    // The text of a file of Abaqus has all elements.
+    if (format_.name == "abaqus" && is_written_as_read() && !content_->sections.empty()) return;
     std::size_t n_lost = 0;
     for (std::size_t e = elements_.n_cells() + labels_.facets.size(); e < elements_.size(); ++e)
       n_lost += elements_.dimension(e) < format_.min_element_dimension;

@@ -255,10 +255,38 @@ int dimension_of(const MeshParts& parts) {
   return parts.elements[3].nodes.empty() ? 2 : 3;
 }
 
+namespace {
+
+/// Returns the points of the nodes that lines and cells have; empty if these have all nodes.
+std::vector<Point<3>> points_of_elements(const MeshParts& parts) {
+  std::vector<bool> is_used(parts.coordinates.size(), false);
+  for (int dim = 1; dim <= 2; ++dim)
+    for (const auto* rows : {&parts.elements[dim].nodes, &parts.elements[dim].midside})
+      for (const NodeIndex node : rows->entries()) is_used[node] = true;
+  std::vector<Point<3>> points;
+  if (std::find(is_used.begin(), is_used.end(), false) == is_used.end()) return points;
+  for (std::size_t i = 0; i < is_used.size(); ++i)
+    if (is_used[i]) points.push_back(parts.coordinates[i]);
+  return points;
+}
+
+}  // namespace
+
+/// Nodes without an element may lie off the plane. They do not move, so they keep their points.
 void lay_into_plane(MeshParts& parts) {
   if (dimension_of(parts) == 3) return;
-  auto plane = plane_of(parts.coordinates);
-  if (!plane || *plane == PlaneInSpace()) return;
+  const auto points = points_of_elements(parts);
+  auto plane = plane_of(points.empty() ? parts.coordinates : points);
+  if (!plane) return;
+  if (!points.empty()) {
+    plane->initial.clear();
+    for (NodeIndex i = 0; i < parts.coordinates.size(); ++i)
+      if (plane->in_space(i, plane->in_plane(parts.coordinates[i])) != parts.coordinates[i]) {
+        plane->initial = parts.coordinates;
+        break;
+      }
+  }
+  if (*plane == PlaneInSpace()) return;
   for (Point<3>& point : parts.coordinates) {
     const Point<2> in_plane = plane->in_plane(point);
     point = {in_plane.x(), in_plane.y(), 0.0};
@@ -280,6 +308,11 @@ MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts,
     const std::size_t n_nodes = parts.coordinates.size();
     const auto groups = groups_of_points(parts);
     if (parts.leaves_out_unused_nodes) drop_unused_nodes(parts);
+    if (const std::size_t n = parts.elements[1].nodes.size();
+        n > 0 && parts.elements[2].nodes.empty() && parts.elements[3].nodes.empty())
+      throw InputError("the mesh has no cells, only " + std::to_string(n) +
+                       (n == 1 ? " line" : " lines") +
+                       "; use a mesh of triangles, quadrilaterals or volume elements");
     if (const std::size_t n = n_nodes - parts.coordinates.size(); n > 0)
       parts.notes.push_back(note_on_unused_nodes(n, groups, groups_of_points(parts)));
     require_usable_coordinates(parts);

@@ -186,6 +186,18 @@ const std::string cae_job =
     "*NSET, NSET=CLAMPED\n1, 2\n*SURFACE, NAME=TOP, TYPE=ELEMENT\n1, S2\n*STEP\n*NODE PRINT\nU\n"
     "*END STEP\n";
 
+TEST_F(FileContents, AbaqusNamesFacetsWithoutALabelAsLost) {
+  write("a.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+        "$EndNodes\n$Elements\n2\n1 2 2 0 1 1 3 2\n2 4 2 0 1 1 2 3 4\n$EndElements\n");
+  EXPECT_THAT(losses(file("b.inp"), read_mesh(file("a.msh")).mesh),
+              ElementsAre("1 points, lines or facets without a label"));
+  write("a.inp",
+        "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
+        "*ELEMENT, TYPE=S3\n1, 1, 3, 2\n*ELEMENT, TYPE=C3D4\n2, 1, 2, 3, 4\n");
+  EXPECT_THAT(losses(file("b.inp"), read_mesh(file("a.inp")).mesh), IsEmpty());
+}
+
 TEST_F(FileContents, AbaqusKeepsAllTextThatIsNoCoordinate) {
   write("a.inp", cae_job);
   MeshFile read = read_mesh(file("a.inp"));

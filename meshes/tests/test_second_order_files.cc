@@ -9,6 +9,8 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <Eigen/Dense>
+#include <fstream>
+#include <iterator>
 
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/tests/mesh_tests.h"
@@ -248,6 +250,59 @@ TEST_F(SecondOrderRead, lines_of_abaqus_with_their_middle_in_the_middle_or_at_th
     EXPECT_THAT(topology.labels().facets[0], ::testing::ElementsAre(0, 1));
     EXPECT_THAT(topology.midside()->of_facets[0], ::testing::ElementsAre(3));
   }
+}
+
+/// A triangle in a plane of its own. Abaqus allows empty fields, and nodes without an element.
+TEST_F(SecondOrderRead, nodes_of_abaqus_with_empty_coordinates_and_off_the_plane) {
+  const std::string text =
+      "*NODE\n1, 0, , 0,\n2, 2, 0, ,0\n3, 0, 2\n4, 1, 0\n5, 1, 1\n6, 0, 1\n7, 1, 1, -0.5\n"
+      "*ELEMENT, TYPE=CAX6\n1, 1, 2, 3, 4, 5, 6\n*NSET, NSET=pole\n7\n"
+      "*ELEMENT, TYPE=D\n2, 0, 7, 1\n";
+  const MeshFile read = read_mesh(file_with("axis.inp", text));
+  EXPECT_THAT(read.notes, ::testing::IsSupersetOf({"2 empty coordinates are read as 0",
+                                                   "1 elements of types D are left out, as they "
+                                                   "are no cells"}));
+  ASSERT_TRUE(std::holds_alternative<PlanarMesh>(read.mesh));
+  const Topology& topology = MeshView(read.mesh).topology();
+  EXPECT_THAT(topology.midside_nodes(0), ::testing::ElementsAre(3, 4, 5));
+  const auto path = file("written.inp");
+  write_mesh(path, read.mesh);
+  std::ifstream written(path);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(written), {}), text);
+  write_mesh(file("written.vtu"), read.mesh);
+  EXPECT_TRUE(std::holds_alternative<PlanarMesh>(read_mesh(file("written.vtu")).mesh));
+}
+
+/// Moves the first node of a file of Abaqus and returns the new text.
+std::string text_with_first_node_at(double x, const std::filesystem::path& path) {
+  MeshFile read = read_mesh(path);
+  std::get<PlanarMesh>(read.mesh).coordinates()[0].x() = x;
+  write_mesh(path, read.mesh);
+  std::ifstream written(path);
+  return {std::istreambuf_iterator<char>(written), {}};
+}
+
+TEST_F(SecondOrderRead, lines_of_abaqus_that_are_no_nodes_of_the_mesh_stay) {
+  const std::string nodes = ", 0\n2, 2, 0\n3, 0, 2\n4, 1, 0\n5, 1, 1\n6, 0, 1\n",
+                    blanks = " *ELEMENT, TYPE=CPS6\n1, 1, 2, 3, 4, 5, 6\n *NSET, NSET=a\n1, 2\n";
+  EXPECT_EQ(text_with_first_node_at(0.25, file_with("blanks.inp", " *NODE\n1, 0" + nodes + blanks)),
+            " *NODE\n1, 0.25" + nodes + blanks);
+  const std::string part = "*PART, NAME=P\n*NODE\n1, 0",
+                    rest =
+                        "*ELEMENT, TYPE=CPS6\n1, 1, 2, 3, 4, 5, 6\n*END PART\n"
+                        "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n"
+                        "*NODE\n1, 7, 8, 9\n*END ASSEMBLY\n";
+  EXPECT_EQ(text_with_first_node_at(0.25, file_with("part.inp", part + nodes + rest)),
+            "*PART, NAME=P\n*NODE\n1, 0.25" + nodes + rest);
+  const std::string other = "*PART, NAME=Q\n*NODE\n1, 7, 8\n*END PART\n";
+  EXPECT_THAT(text_with_first_node_at(0.25, file_with("parts.inp", other + part + nodes + rest)),
+              ::testing::Not(::testing::HasSubstr("*PART")));
+}
+
+TEST_F(SecondOrderRead, meshes_of_lines_are_refused_with_their_number) {
+  const std::string text = "*NODE\n1, 0, 0\n2, 1, 0\n3, 2, 0\n*ELEMENT, TYPE=B32\n1, 1, 2, 3\n";
+  EXPECT_THAT(input_error_of([&] { read_mesh(file_with("beam.inp", text)); }),
+              ::testing::HasSubstr("the mesh has no cells, only 1 line; use"));
 }
 
 TEST_F(SecondOrderRead, clockwise_cells_are_turned_with_their_midside_nodes) {

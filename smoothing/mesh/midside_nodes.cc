@@ -93,7 +93,8 @@ void check_midside_nodes(int dim, std::size_t n_nodes, const CompressedRows<Node
                                std::to_string(n_nodes) + " nodes, counted from 0");
       if (is_corner[node])
         throw CellError(c, "has node " + std::to_string(node) +
-                               " as a midside node, but the node is a corner of a cell");
+                               " as a midside node, but the node is a corner of a cell; "
+                               "save all cells with one element order");
     }
   }
   auto placed = placed_nodes(dim, cells, midside);

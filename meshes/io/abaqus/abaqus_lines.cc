@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == text.npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
 std::string unquoted(std::string_view text) {
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
     text = text.substr(1, text.size() - 2);
@@ -42,6 +36,12 @@ std::vector<std::string_view> split_at_commas(std::string_view text) {
 }
 
 }  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == text.npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
 
 std::string capitals(std::string_view text) {
   std::string result(text);
@@ -143,10 +143,12 @@ bool AbaqusLines::next_data() {
   return !at_keyword_;
 }
 
-void AbaqusLines::require_no_empty_field() const {
+std::vector<bool> AbaqusLines::empty_fields() const {
   const auto fields = split_at_commas(sources_.reader().text());
-  for (std::size_t i = 0; i + 1 < fields.size(); ++i)
-    if (fields[i].empty()) fail("field " + std::to_string(i + 1) + " of the line is empty");
+  std::vector<bool> empty;
+  for (const auto& field : fields) empty.push_back(trimmed(field).empty());
+  if (empty.size() > 1 && empty.back()) empty.pop_back();
+  return empty;
 }
 
 }  // namespace smoothfem

@@ -14,6 +14,9 @@ namespace smoothfem {
 
 std::string capitals(std::string_view text);
 
+/// Returns the text without blanks at its beginning and end.
+std::string_view trimmed(std::string_view text);
+
 /// The lines of an Abaqus input file: keyword lines "*NAME, KEY=VALUE, KEY" that may continue after
 /// a comma, data lines of fields between commas, comments "**". The lines of included files
 /// (*INCLUDE, and INPUT= of nodes, elements and sets) are in place.
@@ -38,8 +41,8 @@ class AbaqusLines {
   double number(std::string_view what) { return sources_.reader().number(what); }
   /// Returns the next field, a label or a name.
   std::string_view entry() { return sources_.reader().word(); }
-  /// Throws InputError if the data line has an empty field, which would shift the later ones.
-  void require_no_empty_field() const;
+  /// Tells for each field of the data line whether nothing is in it. A comma at the end adds none.
+  std::vector<bool> empty_fields() const;
 
   /// Returns the contents of all comments so far that begin with abaqus_name_comment.
   const std::vector<std::string>& name_comments() const { return name_comments_; }

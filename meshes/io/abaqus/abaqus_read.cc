@@ -56,12 +56,13 @@ struct Instance {
   }
 };
 
-/// Element types that are no cells: springs, masses, connectors and the like.
+/// Element types that are no cells: springs, masses, connectors, CalculiX's network elements (D)
+/// and the like.
 bool is_no_cell(std::string_view type) {
   constexpr std::array prefixes{"SPRING", "DASHPOT", "MASS",  "ROTARYI", "CONN",    "GAP",  "DGAP",
                                 "DCOUP",  "DISTRIB", "JOINT", "ITS",     "HEATCAP", "FLINK"};
-  return std::any_of(prefixes.begin(), prefixes.end(),
-                     [&](const char* prefix) { return type.starts_with(prefix); });
+  return type == "D" || std::any_of(prefixes.begin(), prefixes.end(),
+                                    [&](const char* prefix) { return type.starts_with(prefix); });
 }
 
 class AbaqusReader {
@@ -224,6 +225,10 @@ class AbaqusReader {
       parts_.notes.push_back(std::to_string(n_left_out_) + " elements of types " +
                              joined({types_left_out_.begin(), types_left_out_.end()}) +
                              " are left out, as they are no cells");
+    if (n_empty_coordinates_ > 0)
+      parts_.notes.push_back(std::to_string(n_empty_coordinates_) +
+                             (n_empty_coordinates_ == 1 ? " empty coordinate is read as 0"
+                                                        : " empty coordinates are read as 0"));
     if (!has_all_sets_)
       parts_.notes.emplace_back(
           "the file has too many sets of elements, and the last ones are left out");
@@ -232,8 +237,11 @@ class AbaqusReader {
           "the file includes " + std::to_string(lines_.n_included()) +
           (lines_.n_included() == 1 ? " other, whose text is" : " others, whose text is") +
           " in place in written .inp files");
-    const bool is_placed =
-        instances_.size() > 1 || (instances_.size() == 1 && instances_[0].is_moved());
+    const auto n_parts =
+        std::count_if(parts_of_file_.begin(), parts_of_file_.end(),
+                      [](const auto& part) { return !part.second.node_ids.empty(); });
+    const bool is_placed = n_parts > 1 || instances_.size() > 1 ||
+                           (instances_.size() == 1 && instances_[0].is_moved());
     if (is_placed || content_.starts_with(abaqus_first_comment)) return;
     std::string whole = std::move(lines_).whole_text();
     content.sections.push_back(whole.empty() ? std::string(content_) : std::move(whole));
@@ -243,10 +251,15 @@ class AbaqusReader {
     if (capitals(lines_.parameter("SYSTEM", "R")) != "R")
       lines_.fail("only Cartesian coordinates are supported (*NODE without SYSTEM)");
     while (lines_.next_data()) {
-      lines_.require_no_empty_field();
+      const std::vector<bool> is_empty = lines_.empty_fields();
+      if (is_empty.front()) lines_.fail("the node has no label; put its number first in the line");
       const std::size_t label = lines_.label("the node's label");
       Point<3> point = Point<3>::Zero();
-      for (int d = 0; d < 3 && lines_.has_field(); ++d) point[d] = lines_.number("a coordinate");
+      for (std::size_t d = 0; d < 3 && d + 1 < is_empty.size(); ++d)
+        if (is_empty[d + 1])
+          ++n_empty_coordinates_;
+        else
+          point[static_cast<Eigen::Index>(d)] = lines_.number("a coordinate");
       mesh_->node_ids.push_back(label);
       mesh_->coordinates.push_back(point);
     }
@@ -515,7 +528,7 @@ class AbaqusReader {
   std::map<std::string, std::size_t> set_numbers_;  ///< by name in capitals, from 1
   std::map<std::pair<int, std::size_t>, int> tags_;
   std::set<std::string> types_left_out_;
-  std::size_t n_left_out_ = 0;
+  std::size_t n_left_out_ = 0, n_empty_coordinates_ = 0;
   bool has_all_sets_ = true;
   bool in_assembly_ = false;
 };
@@ -551,6 +564,7 @@ const RegisteredFormat abaqus({.name = "abaqus",
                                .holds_physical_names = true,
                                .holds_numbers = true,
                                .holds_several_groups = true,
+                               .min_element_dimension = 3,
                                .recognizes = is_abaqus,
                                .read = read_abaqus,
                                .write = write_abaqus});

@@ -274,15 +274,19 @@ class AbaqusRewriter {
 
   std::string text(const std::string& original) {
     std::string result;
-    bool is_node_block = false;
+    bool is_node_block = false, in_assembly = false, in_instance = false;
     for (std::size_t begin = 0; begin < original.size();) {
       const std::size_t end = std::min(original.find('\n', begin), original.size() - 1) + 1;
       const std::string_view line = std::string_view(original).substr(begin, end - begin);
-      if (line.starts_with('*') && !line.starts_with("**")) {
-        const std::string_view name = line.substr(1, line.find_first_of(",\r\n") - 1);
-        is_node_block = capitals(name.substr(0, name.find_last_not_of(" \t") + 1)) == "NODE";
+      const std::string_view text = trimmed(line.substr(0, line.find('\n')));
+      if (text.starts_with('*') && !text.starts_with("**")) {
+        const std::string name = capitals(trimmed(text.substr(1, text.find(',') - 1)));
+        if (name.ends_with("ASSEMBLY")) in_assembly = name == "ASSEMBLY";
+        if (name.ends_with("INSTANCE")) in_instance = name == "INSTANCE";
+        // Reference points of an assembly are not part of the mesh.
+        is_node_block = name == "NODE" && (in_instance || !in_assembly);
       }
-      is_node_block && !line.starts_with('*') ? append_node(result, line) : void(result += line);
+      is_node_block && !text.starts_with('*') ? append_node(result, line) : void(result += line);
       begin = end;
     }
     return result;
@@ -319,7 +323,8 @@ class AbaqusRewriter {
       return;
     }
     append_number(result, label);
-    for (std::size_t d = 0; d < std::max<std::size_t>(old.size(), 2); ++d) {
+    const std::size_t least = point.z() == 0.0 ? 2 : 3;
+    for (std::size_t d = 0; d < std::max(old.size(), least); ++d) {
       result += ", ";
       append_number(result, point[static_cast<Eigen::Index>(d)]);
     }
