@@ -23,6 +23,21 @@ class Meshes(unittest.TestCase):
         np.testing.assert_array_equal(lists.cells, QUADRILATERALS)
         self.assertEqual(repr(mesh), "<smoothfem.Mesh: planar, 9 nodes, 4 cells>")
 
+    def test_cells_of_second_order(self):
+        points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [.5, 0, 0], [.5, .5, 0], [0, .5, 0], [0, 0, .5], [.5, 0, .5], [0, .5, .5]]
+        rows = np.array([[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]])  # as in meshio and VTK
+        mesh = smoothfem.Mesh(np.array(points), {"tetra10": rows})
+        self.assertEqual((mesh.order, mesh.n_nodes, mesh.n_cells), (2, 10, 1))
+        np.testing.assert_array_equal(mesh.cells, rows[:, :4])
+        np.testing.assert_array_equal(mesh.midside_nodes["tetra"], rows[:, 4:])
+        self.assertAlmostEqual(smoothfem.quality(mesh, "size")[0], 1 / 6, places=15)
+        mesh.points[5] += [.1, .1, 0]  # the edge bends outwards: its curve is a parabola
+        self.assertGreater(smoothfem.quality(mesh, "size")[0], 1 / 6)
+        self.assertEqual(smoothfem.Mesh(SQUARE, QUADRILATERALS).order, 1)
+        self.assertEqual(smoothfem.Mesh(SQUARE, QUADRILATERALS).midside_nodes, {})
+        with self.assertRaisesRegex(smoothfem.InputError, "tetra10.*10 nodes"):
+            smoothfem.Mesh(np.array(points), {"tetra10": rows[:, :9]})
+
     def test_mixed_cells_have_blocks(self):
         cells = [[0, 1, 4, 3], [1, 2, 4], [2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]]
         mesh = smoothfem.Mesh(SQUARE, cells)
