@@ -207,7 +207,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadVolume{"abaqus_twice", ".inp",
                   abaqus_head + "*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n1,1,2,3,4\n",
                   ":8: the element 1 is defined twice"},
-        BadVolume{"abaqus_empty_field", ".inp", "*NODE\n1,0,,0\n", ":2: field 3 of the line"},
+        BadVolume{"abaqus_empty_field", ".inp", "*NODE\n,0,0\n", ":2: the node has no label"},
         BadVolume{"abaqus_moved", ".inp",
                   abaqus_head + "*INSTANCE, NAME=a, PART=b\n0,0,0,0\n*END INSTANCE\n",
                   ":8: the place of the instance is not a line with"},
