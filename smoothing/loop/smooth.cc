@@ -320,7 +320,8 @@ template <int dim, int spacedim>
 SmoothingResult smooth_corners_first(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                                      const Observer<dim, spacedim>& observer) {
   if constexpr (spacedim > dim)
-    throw InputError("surface meshes of second order cannot be smoothed; save it with order 1");
+    throw InputError(
+        "surface meshes of second order cannot be smoothed; save the mesh with linear cells");
   else if (method.info.needs_problem())
     throw InputError("method " + method.info.name +
                      " solves a problem on linear cells; it does not support meshes of second "
