@@ -69,6 +69,22 @@ TEST_F(Resume, OneRunAtATimeWritesIntoAFolder) {
   EXPECT_EQ(run(command("planar.prm", "out")), 0);
 }
 
+TEST_F(Resume, ACompleteStudyRemovesWhatAKilledRunHasLeft) {
+  ASSERT_EQ(run(command("planar.prm", "out")), 0);
+  const auto files = files_in(file("out"));
+  fs::copy(file("out") / "provenance.json", file("earlier.json"));
+  for (const std::string time : {"20260101T000000Z", "20260102T000000Z"}) {
+    fs::create_directories(file("out") / "earlier" / time);
+    fs::copy(file("earlier.json"), file("out") / "earlier" / time / "provenance.json");
+  }
+  fs::create_directories(file("out") / "kept" / "smoothed-0");
+  auto words = command("planar.prm", "out");
+  words.insert(words.end(), {"--keep", "0"});
+  ASSERT_EQ(run(words), 0);
+  EXPECT_EQ(files_in(file("out")), files);
+  EXPECT_FALSE(fs::exists(file("out") / "kept" / "smoothed-0"));
+}
+
 TEST_F(Resume, PlanarStudiesAreNotForSeveralProcesses) {
   EXPECT_EQ(run(command("planar.prm", "out", 2)), 2);
   EXPECT_FALSE(fs::exists(file("out")));

@@ -65,8 +65,11 @@ class StudyRun {
     });
     changes_ =
         differences_from(earlier_, study_.header, mesh_facts(), study_.methods, study_.solvers);
-    if (earlier_.status == "complete" && changes_.empty() && !options_.retime)
-      return report_complete();
+    if (earlier_.status == "complete" && changes_.empty() && !options_.retime) {
+      report_complete();
+      if (is_alone()) remove_replaced();  // the earlier run may have been killed before it did so
+      return;
+    }
     // A run that makes meshes only has no MPI.
     if (options_.until != RunUntil::meshes) require_support_of_solvers();
     begin_writing();

@@ -38,6 +38,7 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
     progress.say("The results in " + options.out.string() +
                  " are complete: nothing to do. --force starts anew and keeps them under another "
                  "name.");
+    remove_earlier_results(options.out, options.keep);  // a killed run may not have done so
     return;
   }
   if (options.force) progress.say(move_old_results(options.out));

@@ -102,8 +102,11 @@ class CollectionRun {
     read_rows_of_members();
     const std::string changes = differences_from(earlier_, header_, {}, {});
     if (earlier_.status == "complete" && changes.empty() && is_complete() &&
-        folders_of_others().empty())
-      return report_complete();
+        folders_of_others().empty()) {
+      report_complete();
+      remove_replaced();  // the earlier run may have been killed before it did so
+      return;
+    }
     begin_writing(changes);
     for (const auto& note : collection_.notes) progress_.say(note);
     write_provenance("running");
@@ -114,10 +117,7 @@ class CollectionRun {
     }
     times_.measure("writing", [&] { write_tables(); });
     write_provenance(is_complete() ? "complete" : "interrupted");
-    if (is_complete()) {
-      remove_earlier_results(options_.out, options_.keep);
-      progress_.say(KeptResults(options_.out / kept_folder).keep_only(used_results(options_.out)));
-    }
+    if (is_complete()) remove_replaced();
     report();
   }
 
@@ -139,6 +139,12 @@ class CollectionRun {
   }
 
  private:
+  /// Removes earlier results, and kept ones that no results are made of any more.
+  void remove_replaced() {
+    remove_earlier_results(options_.out, options_.keep);
+    progress_.say(KeptResults(options_.out / kept_folder).keep_only(used_results(options_.out)));
+  }
+
   fs::path folder_of(const Member& member) const {
     return member_folder(options_.out, member.name);
   }
