@@ -5,6 +5,7 @@
 #include <array>
 
 #include "smoothing/mesh/volume_elements.h"
+#include "smoothing/second_order/transfinite.h"
 
 namespace smoothfem {
 
@@ -14,20 +15,6 @@ using Place = std::vector<std::size_t>;
 
 bool contains(const Place& place, const Place& part) {
   return std::includes(place.begin(), place.end(), part.begin(), part.end());
-}
-
-/// Weights of the means of a place's vertices, edges and faces in its substitute.
-std::array<double, 3> substitute_weights(std::size_t n_vertices) {
-  switch (n_vertices) {
-    case 2:
-      return {1.0, 0.0, 0.0};
-    case 3:
-      return {-1.0 / 3.0, 4.0 / 3.0, 0.0};
-    case 4:
-      return {-1.0, 2.0, 0.0};
-    default:
-      return {1.0, -3.0, 3.0};
-  }
 }
 
 }  // namespace
@@ -46,7 +33,8 @@ MappingPoints mapping_points(int dim, std::size_t n_vertices, bool curved) {
     for (std::size_t& v : place) v = deal_ii_position(dim, n_vertices, v);
     std::sort(place.begin(), place.end());
     auto& sum = points.substitutes.emplace_back();
-    const auto weights = substitute_weights(place.size());
+    const TransfiniteWeights transfinite = transfinite_weights(place.size());
+    const std::array weights{transfinite.corners, transfinite.edges, transfinite.faces};
     constexpr std::array<std::size_t, 3> n_of_parts{1, 2, 4};
     for (std::size_t kind = 0; kind < n_of_parts.size(); ++kind) {
       if (weights[kind] == 0.0) continue;

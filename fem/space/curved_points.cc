@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "smoothing/mesh/volume_elements.h"
-
 namespace smoothfem {
 
 bool has_curved_cells(const Topology& topology, Geometry geometry) {
@@ -16,7 +14,7 @@ template <int dim>
 typename CurvedPoints<dim>::Key CurvedPoints<dim>::key_of(std::vector<NodeIndex> corners) {
   std::sort(corners.begin(), corners.end());
   Key key;
-  key.fill(FiniteElementSpace<dim>::absent);
+  key.fill(no_corner);
   std::copy(corners.begin(), corners.end(), key.begin());
   return key;
 }
@@ -28,22 +26,13 @@ std::vector<NodeIndex> CurvedPoints<dim>::midside_nodes_by_key(const Topology& t
   std::vector<NodeIndex> numbers;
   for (CellIndex c = 0; c < topology.n_cells(); ++c) {
     const auto corners = topology.cell_nodes(c), nodes = topology.midside_nodes(c);
-    if (nodes.empty()) continue;
     const auto counts = midside_counts(dim, corners.size(), nodes.size());
-    auto next = nodes.begin();
-    const auto add = [&](const Key& key) {
+    std::size_t position = 0;
+    for_each_midside_place(dim, corners, nodes, [&](const Key& place, NodeIndex node) {
+      const Key key = position++ < counts.edges + counts.faces ? place : key_of({c});
       numbers.insert(numbers.end(), key.begin(), key.end());
-      numbers.push_back(*next++);
-    };
-    for_each_edge(dim, corners.size(), [&](std::size_t a, std::size_t b) {
-      add(key_of({corners[a], corners[b]}));
+      numbers.push_back(node);
     });
-    if (counts.faces > 0)
-      for_each_quadrilateral_face(corners.size(), [&](const LocalFace& face) {
-        const auto& k = face.nodes;
-        add(key_of({corners[k[0]], corners[k[1]], corners[k[2]], corners[k[3]]}));
-      });
-    if (counts.cell > 0) add(key_of({c}));
   }
   return numbers;
 }

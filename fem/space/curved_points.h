@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "fem/space/finite_element_space.h"
+#include "smoothing/mesh/midside_nodes.h"
 
 namespace smoothfem {
 
@@ -34,9 +34,8 @@ class CurvedPoints {
                     std::vector<NodeIndex>& points);
 
  private:
-  /// The corners of an edge or face by their numbers in the mesh, ascending, or the number of a
-  /// cell; followed by absent ones.
-  using Key = std::array<NodeIndex, 4>;
+  /// The place of an edge or a face in the mesh, or the number of a cell, followed by no_corner.
+  using Key = MidsidePlace;
   struct Hash {
     std::size_t operator()(const Key& key) const {
       std::size_t hash = 0;

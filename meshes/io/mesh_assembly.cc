@@ -157,6 +157,8 @@ class LabelParts {
 
 std::vector<FixedReasons> reasons_of(const MeshParts& parts, const Topology& topology) {
   std::vector<FixedReasons> reasons(topology.n_nodes(), 0);
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
+    reasons[i] = topology.fixed_reasons(i) & bit(FixedReason::midside);
   const auto& on_boundary = topology.on_boundary();
   bool fixes_boundary = true;
   for (NodeIndex i = 0; i < topology.n_nodes(); ++i)

@@ -116,35 +116,20 @@ constexpr NodeOrder with_middles(const NodeOrder& edges, std::size_t n_corners,
   return order;
 }
 
-/// Orders that all formats share: a line whose middle node comes last, and planar cells.
-inline constexpr NodeOrder line_3{{0, 1, 2}, 3};
-inline constexpr NodeOrder triangle_6 = node_order(2, 3, {{0, 1}, {1, 2}, {2, 0}});
-inline constexpr NodeOrder triangle_7 = with_middles(triangle_6, 3, {}, true);
-inline constexpr NodeOrder quadrilateral_8 = node_order(2, 4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}});
-inline constexpr NodeOrder quadrilateral_9 = with_middles(quadrilateral_8, 4, {}, true);
+/// Returns the order of midside_nodes.h itself, which most formats have for most elements.
+constexpr NodeOrder own_order(std::size_t n_nodes) {
+  NodeOrder order;
+  for (std::size_t k = 0; k < n_nodes; ++k) order.add(k);
+  return order;
+}
+inline constexpr NodeOrder line_3 = own_order(3), triangle_6 = own_order(6),
+                           triangle_7 = own_order(7), quadrilateral_8 = own_order(8),
+                           quadrilateral_9 = own_order(9);
 /// Orders of VTK and Abaqus.
 inline constexpr NodeOrder tetrahedron_10 =
     node_order(3, 4, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}});
-inline constexpr NodeOrder pyramid_13 =
-    node_order(3, 5, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}});
-inline constexpr std::size_t pyramid_14_corners = 5;
-inline constexpr NodeOrder pyramid_14 =
-    with_middles(pyramid_13, pyramid_14_corners, {{0, 2}}, false);
-inline constexpr NodeOrder prism_15 =
-    node_order(3, 6, {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}});
-inline constexpr NodeOrder hexahedron_20 = node_order(3, 8,
-                                                      {{0, 1},
-                                                       {1, 2},
-                                                       {2, 3},
-                                                       {3, 0},
-                                                       {4, 5},
-                                                       {5, 6},
-                                                       {6, 7},
-                                                       {7, 4},
-                                                       {0, 4},
-                                                       {1, 5},
-                                                       {2, 6},
-                                                       {3, 7}});
+inline constexpr NodeOrder pyramid_13 = own_order(13), prism_15 = own_order(15),
+                           hexahedron_20 = own_order(20);
 
 /// An element of second order in a format.
 struct FormatElement {

@@ -126,10 +126,7 @@ py::dict to_grid(const PythonMesh& mesh, bool vtk_wedges) {
     for (const std::uint32_t e : order) {
       const int dim = elements.dimension(e);
       const FormatElement* second_order =
-          elements.midside(e).empty()
-              ? nullptr
-              : find_type(vtk_second_order_types, dim, elements.nodes(e).size(),
-                          elements.midside(e).size());
+          find_type(vtk_quadratic_types, dim, elements.nodes(e).size(), elements.midside(e).size());
       if (!elements.midside(e).empty() && !second_order)
         throw InputError(
             "VTK has no pyramid with 14 nodes; use mesh.points and mesh.midside_nodes");
@@ -177,21 +174,14 @@ namespace {
 /// corners, positions of its nodes in a row of midside_nodes.h).
 py::list second_order_types() {
   py::list types;
-  const auto add = [&](int number, int dim, std::size_t n_corners, const NodeOrder& order) {
-    constexpr const char* of_planes[] = {"", "", "line", "triangle", "quad"};
-    constexpr const char* in_space[] = {"",        "",      "", "",          "tetra",
-                                        "pyramid", "wedge", "", "hexahedron"};
-    const std::string name =
-        (dim == 3 ? in_space : of_planes)[n_corners] + std::to_string(order.size);
-    types.append(py::make_tuple(
-        name, number, dim, n_corners,
-        py::cast(std::vector<int>(order.positions.begin(), order.positions.begin() + order.size))));
+  const auto add = [&](const FormatElement& type) {
+    const auto& [positions, size] = type.order;
+    types.append(py::make_tuple(meshio_name(type.dimension, type.n_corners) + std::to_string(size),
+                                type.number, type.dimension, type.n_corners,
+                                std::vector<int>(positions.begin(), positions.begin() + size)));
   };
-  constexpr int first_lagrange_type = 68;
-  for (const FormatElement& type : vtk_second_order_types)
-    if (type.number < first_lagrange_type)
-      add(type.number, type.dimension, type.n_corners, type.order);
-  add(0, 3, pyramid_14_corners, pyramid_14);
+  for (const FormatElement& type : vtk_quadratic_types) add(type);
+  add(meshio_pyramid_14);
   return types;
 }
 

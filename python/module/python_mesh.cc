@@ -46,6 +46,21 @@ std::string block_name(int dim, std::size_t n_nodes) {
                                       : std::string(name_of(type));
 }
 
+/// Name of each type of cells -> array, shorter cells first.
+using NameOf = std::string (*)(int dim, std::size_t n_nodes);
+py::dict by_type(const CompressedRows<NodeIndex>& rows, int dim, NameOf name_of) {
+  std::map<std::size_t, std::vector<NodeIndex>> by_size;
+  for (std::size_t c = 0; c < rows.size(); ++c)
+    by_size[rows[c].size()].insert(by_size[rows[c].size()].end(), rows[c].begin(), rows[c].end());
+  py::dict arrays;
+  for (const auto& [size, numbers] : by_size)
+    arrays[name_of(dim, size).c_str()] =
+        copy_of(numbers, {signed_size(numbers.size() / size), signed_size(size)});
+  return arrays;
+}
+
+}  // namespace
+
 std::string meshio_name(int dim, std::size_t n_nodes) {
   if (dim == 1) return "line";
   switch (element_type(dim, n_nodes)) {
@@ -61,30 +76,6 @@ std::string meshio_name(int dim, std::size_t n_nodes) {
       return std::string(name_of(element_type(dim, n_nodes)));
   }
 }
-
-/// Returns the order of meshio, which is VTK's but for a pyramid that VTK does not have; null for
-/// linear cells.
-const NodeOrder* meshio_order(int dim, std::size_t n_corners, std::size_t n_midside) {
-  if (n_midside == 0) return nullptr;
-  if (n_corners == pyramid_14_corners && n_corners + n_midside == pyramid_14.size)
-    return &pyramid_14;
-  return &find_type(vtk_second_order_types, dim, n_corners, n_midside)->order;
-}
-
-/// Name of each type of cells -> array, shorter cells first.
-using NameOf = std::string (*)(int dim, std::size_t n_nodes);
-py::dict by_type(const CompressedRows<NodeIndex>& rows, int dim, NameOf name_of) {
-  std::map<std::size_t, std::vector<NodeIndex>> by_size;
-  for (std::size_t c = 0; c < rows.size(); ++c)
-    by_size[rows[c].size()].insert(by_size[rows[c].size()].end(), rows[c].begin(), rows[c].end());
-  py::dict arrays;
-  for (const auto& [size, numbers] : by_size)
-    arrays[name_of(dim, size).c_str()] =
-        copy_of(numbers, {signed_size(numbers.size() / size), signed_size(size)});
-  return arrays;
-}
-
-}  // namespace
 
 const py::object& TopologyArrays::cells() {
   if (cells_) return cells_;
@@ -129,8 +120,8 @@ const py::dict& TopologyArrays::midside_nodes() {
     const auto corners = topology_->cell_nodes(c), midside = topology_->midside_nodes(c);
     row.assign(corners.begin(), corners.end());
     row.insert(row.end(), midside.begin(), midside.end());
-    if (const NodeOrder* order = meshio_order(dim, corners.size(), midside.size()))
-      order->to_file(row);
+    if (const FormatElement* type = find_meshio_type(dim, corners.size(), midside.size()))
+      type->order.to_file(row);
     by_corners[corners.size()].append(std::span(row).subspan(corners.size()));
   }
   for (const auto& [n_corners, rows] : by_corners) {

@@ -24,6 +24,9 @@ bool has_whole_numbers(const py::array& array);
 std::optional<std::vector<bool>> node_flags(const std::string& name, const py::object& given,
                                             std::size_t n_nodes);
 
+/// Returns meshio's name of a linear element, for example "tetra"; dim: 1 to 3.
+std::string meshio_name(int dim, std::size_t n_nodes);
+
 /// What Python sees of a topology: read-only arrays of node numbers, made when they are first asked
 /// for. None is a copy where the topology has the same numbers one after the other.
 class TopologyArrays {

@@ -142,17 +142,17 @@ std::array<std::size_t, fixed_reasons.size()> count_fixed_reasons(const Topology
 }
 
 std::size_t n_midside_nodes(const Topology& topology) {
-  const auto& reasons = topology.fixed_reasons();
-  return static_cast<std::size_t>(
-      std::count_if(reasons.begin(), reasons.end(),
-                    [](FixedReasons of_node) { return has(of_node, FixedReason::midside); }));
+  return topology.n_nodes() - topology.free_nodes().size() - n_fixed_nodes(topology);
+}
+
+std::size_t n_fixed_nodes(const Topology& topology) {
+  std::size_t n = 0;
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i) n += topology.reasons_to_stay(i) != 0;
+  return n;
 }
 
 std::string fixed_reasons_text(const Topology& topology) {
-  const auto& reasons = topology.fixed_reasons();
-  const auto n_fixed = std::count_if(reasons.begin(), reasons.end(), [](FixedReasons of_node) {
-    return of_node != 0 && !has(of_node, FixedReason::midside);
-  });
+  const std::size_t n_fixed = n_fixed_nodes(topology);
   if (n_fixed == 0) return {};
   std::string text;
   const auto counts = count_fixed_reasons(topology);

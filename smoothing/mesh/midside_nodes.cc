@@ -2,6 +2,8 @@
 #include "smoothing/mesh/midside_nodes.h"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -19,8 +21,9 @@ struct Placed {
   NodeIndex node;
   CellIndex cell;
 
-  auto by_place() const { return std::tie(place, cell); }
-  auto by_node() const { return std::tie(node, cell); }
+  bool operator<(const Placed& other) const {
+    return std::tie(place, cell) < std::tie(other.place, other.cell);
+  }
 };
 
 std::string place_name(const MidsidePlace& place) {
@@ -41,39 +44,25 @@ std::vector<Placed> placed_nodes(int dim, const CompressedRows<NodeIndex>& cells
   return all;
 }
 
-/// Calls visit(places) for the corners' positions of each edge, then of each quadrilateral face of
-/// a volume cell: the order of midside nodes.
-template <class Visit>
-void for_each_place(int dim, std::size_t n_corners, const Visit& visit) {
-  for_each_edge(dim, n_corners, [&](std::size_t a, std::size_t b) {
-    visit(std::vector<LocalIndex>{static_cast<LocalIndex>(a), static_cast<LocalIndex>(b)});
-  });
-  if (dim == 3)
-    for_each_quadrilateral_face(n_corners, [&](const LocalFace& face) {
-      visit(std::vector<LocalIndex>(face.nodes.begin(), face.nodes.end()));
-    });
-}
-
 }  // namespace
 
 std::vector<NodeIndex> reordered_midside(int dim, std::span<const NodeIndex> midside,
                                          std::span<const LocalIndex> corners) {
-  std::vector<std::vector<LocalIndex>> old_places, new_places;
-  for_each_place(dim, corners.size(), [&](std::vector<LocalIndex> place) {
-    auto old = place;
-    for (LocalIndex& corner : old) corner = corners[corner];
-    std::sort(old.begin(), old.end());
-    new_places.push_back(std::move(old));  // of the new place, in old positions
-    std::sort(place.begin(), place.end());
-    old_places.push_back(std::move(place));
+  std::vector<NodeIndex> old_corners(corners.size()), positions(midside.size());
+  std::iota(old_corners.begin(), old_corners.end(), NodeIndex{0});
+  std::iota(positions.begin(), positions.end(), NodeIndex{0});
+  std::map<MidsidePlace, NodeIndex> nodes;
+  for_each_midside_place(dim, old_corners, midside, [&](const MidsidePlace& place, NodeIndex node) {
+    nodes.emplace(place, node);
   });
-  std::vector<NodeIndex> result(midside.begin(), midside.end());  // the cell's node stays
-  const MidsideCounts counts = midside_counts(dim, corners.size(), midside.size());
-  const std::size_t n_placed = counts.edges + counts.faces;
-  for (std::size_t k = 0; k < n_placed; ++k) {
-    const auto old = std::find(old_places.begin(), old_places.end(), new_places[k]);
-    result[k] = midside[static_cast<std::size_t>(old - old_places.begin())];
-  }
+  const std::vector<NodeIndex> new_corners(corners.begin(), corners.end());
+  std::vector<NodeIndex> result(midside.begin(), midside.end());
+  for_each_midside_place(dim, new_corners, positions,
+                         [&](const MidsidePlace& place, NodeIndex position) {
+                           // The cell's own node stays.
+                           if (const auto found = nodes.find(place); found != nodes.end())
+                             result[position] = found->second;
+                         });
   return result;
 }
 
@@ -98,16 +87,15 @@ void check_midside_nodes(int dim, std::size_t n_nodes, const CompressedRows<Node
     }
   }
   auto placed = placed_nodes(dim, cells, midside);
-  std::sort(placed.begin(), placed.end(),
-            [](const Placed& a, const Placed& b) { return a.by_node() < b.by_node(); });
-  for (std::size_t i = 1; i < placed.size(); ++i) {
-    const Placed &a = placed[i - 1], &b = placed[i];
-    if (a.node == b.node && a.place != b.place)
-      throw CellError(b.cell, "has the midside node " + std::to_string(b.node) +
+  constexpr MidsidePlace unknown{no_corner, no_corner, no_corner, no_corner};
+  std::vector<MidsidePlace> place_of(n_nodes, unknown);
+  for (const Placed& p : placed) {
+    if (place_of[p.node] != unknown && place_of[p.node] != p.place)
+      throw CellError(p.cell, "has the midside node " + std::to_string(p.node) +
                                   ", which also belongs to another edge or face");
+    place_of[p.node] = p.place;
   }
-  std::sort(placed.begin(), placed.end(),
-            [](const Placed& a, const Placed& b) { return a.by_place() < b.by_place(); });
+  std::sort(placed.begin(), placed.end());
   for (std::size_t i = 1; i < placed.size(); ++i) {
     const Placed &a = placed[i - 1], &b = placed[i];
     if (a.place == b.place && a.node != b.node)

@@ -85,6 +85,10 @@ class Topology {
   /// Returns why a node stays; 0 if it may move.
   FixedReasons fixed_reasons(NodeIndex node) const { return fixed_[node]; }
   const std::vector<FixedReasons>& fixed_reasons() const { return fixed_; }
+  /// Returns the same, but 0 for midside nodes, which do not stay but follow their corners.
+  FixedReasons reasons_to_stay(NodeIndex node) const {
+    return static_cast<FixedReasons>(fixed_[node] & ~bit(FixedReason::midside));
+  }
   const std::vector<NodeIndex>& free_nodes() const { return free_nodes_; }
   /// True if at least one node of the cell is free. q*_min takes these cells only.
   bool has_free_node(CellIndex cell) const { return cell_has_free_node_[cell] != 0; }

@@ -182,10 +182,8 @@ template <int dim>
 double curved_mean_ratio(const Mesh<dim>& mesh, CellIndex cell) {
   CellPoints<dim> points(mesh, cell);
   if (mesh.targets() == nullptr) {
-    // Offsets of midside nodes by rounding errors change det J by less than it is.
-    constexpr double well_above_rounding = 1e-3;
     if (points.is_straight_simplex())
-      if (const double q = cell_mean_ratio(mesh, cell); q > well_above_rounding) return q;
+      if (const double q = cell_mean_ratio(mesh, cell); q > well_above_rounding_errors) return q;
     return curved_mean_ratio<dim>(points);
   }
   points.map_to_regular(*mesh.targets(), cell);

@@ -12,6 +12,10 @@
 
 namespace smoothfem {
 
+/// Triangles and tetrahedra above this mean ratio are valid if their midside nodes are off the
+/// middle of straight edges by rounding errors only: these change det J by less than it is.
+inline constexpr double well_above_rounding_errors = 1e-3;
+
 /// Mean ratio of a curved cell: as in mean_ratio.h, but with the tangents of the cell's edges at
 /// each corner in place of its straight edges. They are the columns of the cell's Jacobian there.
 /// All corners of a triangle or tetrahedron count, as they differ. In (0, 1] for cells that are

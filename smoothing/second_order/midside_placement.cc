@@ -11,21 +11,13 @@
 #include "smoothing/mesh/interfaces.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/second_order/curved_quality.h"
+#include "smoothing/second_order/transfinite.h"
 
 namespace smoothfem {
 
 namespace {
 
 constexpr std::size_t grain = 1024;
-
-/// Weights of the corners, the edges' nodes and the faces' nodes in the straight place of a face's
-/// or a cell's node: transfinite interpolation (Gordon and Hall 1973, doi 10.1007/BF01436298). In a
-/// triangle it is the place that the polynomial of degree 2 gives.
-struct Weights {
-  double corners, edges, faces = 0.0;
-};
-constexpr Weights of_triangle{-1.0 / 9.0, 4.0 / 9.0}, of_quadrilateral{-0.25, 0.5},
-    of_hexahedron{0.125, -0.25, 0.5};
 
 /// Returns the places of the midside nodes of these facets, and of their edges.
 template <int dim>
@@ -136,16 +128,17 @@ typename MidsidePlacement<dim>::MiddleNode MidsidePlacement<dim>::middle_of_face
 
 template <int dim>
 Point<dim> MidsidePlacement<dim>::straight(const MiddleNode& middle, Points x) const {
-  const auto sum = [&](const std::vector<NodeIndex>& nodes) {
-    Point<dim> total = Point<dim>::Zero();
-    for (const NodeIndex node : nodes) total += x[node];
-    return total;
+  Point<dim> result = Point<dim>::Zero();
+  const auto add = [&](double weight, const std::vector<NodeIndex>& nodes) {
+    Point<dim> sum = Point<dim>::Zero();
+    for (const NodeIndex node : nodes) sum += x[node];
+    if (!nodes.empty()) result += weight / static_cast<double>(nodes.size()) * sum;
   };
-  const Weights& weights = middle.corners.size() == 8   ? of_hexahedron
-                           : middle.corners.size() == 3 ? of_triangle
-                                                        : of_quadrilateral;
-  return weights.corners * sum(middle.corners) + weights.edges * sum(middle.edges) +
-         weights.faces * sum(middle.faces);
+  const TransfiniteWeights weights = transfinite_weights(middle.corners.size());
+  add(weights.corners, middle.corners);
+  add(weights.edges, middle.edges);
+  add(weights.faces, middle.faces);
+  return result;
 }
 
 template <int dim>
@@ -191,9 +184,7 @@ template <int dim>
 std::vector<double> MidsidePlacement<dim>::qualities(
     const Mesh<dim>& mesh, const std::vector<std::uint8_t>& is_bent) const {
   if (mesh.targets()) return curved_mean_ratios(mesh);
-  // Straight simplices have the quality of their corners. Offsets by rounding errors change det J
-  // by less than it is in such cells.
-  constexpr double well_above_rounding = 1e-3;
+  // Straight simplices have the quality of their corners.
   std::vector<double> quality;
   compute_cell_mean_ratios(
       Mesh<dim>::from_finite_points(without_midside_, mesh.copied_coordinates()), quality);
@@ -204,7 +195,7 @@ std::vector<double> MidsidePlacement<dim>::qualities(
           topology_->cell_nodes(c).size() == dim + 1 &&
           std::none_of(midside.begin(), midside.end(),
                        [&](NodeIndex node) { return is_bent[node] != 0; });
-      if (!midside.empty() && !(is_straight_simplex && quality[c] > well_above_rounding))
+      if (!midside.empty() && !(is_straight_simplex && quality[c] > well_above_rounding_errors))
         quality[c] = curved_mean_ratio(mesh, c);
     }
   });

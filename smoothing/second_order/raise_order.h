@@ -19,10 +19,10 @@ template <int dim>
 Mesh<dim> with_midside_nodes(const Mesh<dim>& mesh,
                              SecondOrderKind kind = SecondOrderKind::complete);
 
-/// Returns the mesh of the corners, with the same numbers: no cell uses its midside nodes.
+/// Returns the mesh of the corners of one of second order, with the same numbers: no cell uses its
+/// midside nodes.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> with_linear_cells(const Mesh<dim, spacedim>& mesh) {
-  if (!mesh.topology().midside()) return mesh;
   return {mesh.topology().without_midside(), mesh.copied_coordinates(), mesh.shared_constraints(),
           mesh.shared_targets()};
 }

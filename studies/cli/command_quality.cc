@@ -269,11 +269,10 @@ void report(const QualityArguments& arguments, const Mesh<dim, spacedim>& mesh,
   const auto cell_quality = cell_mean_ratios(mesh);
   auto geometry = geometry_numbers(mesh);
   if (topology.midside()) add_curved_numbers(mesh, geometry);
-  const std::size_t n_midside = n_midside_nodes(topology);
   (arguments.json ? print_json : print_text)(
       {.n_nodes = mesh.n_nodes(),
-       .n_midside_nodes = n_midside,
-       .n_fixed_nodes = mesh.n_nodes() - topology.free_nodes().size() - n_midside,
+       .n_midside_nodes = n_midside_nodes(topology),
+       .n_fixed_nodes = n_fixed_nodes(topology),
        .n_cells = mesh.n_cells(),
        .fixed = fixed_reasons_text(topology),
        .fixed_by_reason = fixed_by_reason(topology),

@@ -104,8 +104,11 @@ void require_valid_if_needed(const SmoothArguments& arguments, const Method<dim,
   const bool needs_valid =
       std::any_of(method.stages.begin(), method.stages.end(),
                   [](const auto& stage) { return stage->traits().needs_valid_mesh; });
-  if (needs_valid && !arguments.untangle)  // curved cells of valid corners are repaired
+  if (!needs_valid || arguments.untangle) return;
+  if (mesh.topology().midside())  // curved cells of valid corners are repaired
     require_valid(with_linear_cells(mesh), arguments.in, cell_lines);
+  else
+    require_valid(mesh, arguments.in, cell_lines);
 }
 
 /// Smooths a mesh. The method and its tables are freed before the mesh is written: writing needs

@@ -276,8 +276,7 @@ class AbaqusReader {
     if (!element)
       lines_.fail("the element type '" + type +
                   "' cannot be read; use C3D4, C3D6, C3D8, C3D10, C3D15, C3D20, CPS3, CPS4, CPS6, "
-                  "CPS8, S3, "
-                  "S4 or similar types");
+                  "CPS8, S3, S4 or similar types");
     auto& elements = mesh_->elements[static_cast<std::size_t>(element->dimension)];
     const std::size_t set = set_number(lines_.parameter("ELSET"));
     while (lines_.next_data()) {

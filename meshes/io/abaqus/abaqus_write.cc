@@ -236,9 +236,7 @@ class AbaqusWriter {
   void write_fixed() {
     std::vector<std::size_t> labels;
     for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i)
-      if (const auto reasons = mesh_.topology().fixed_reasons(i);
-          reasons != 0 && !has(reasons, FixedReason::midside))
-        labels.push_back(node_label(i));
+      if (mesh_.topology().reasons_to_stay(i) != 0) labels.push_back(node_label(i));
     write_set("*NSET, NSET=" + std::string(abaqus_fixed_set), labels);
   }
 

@@ -495,8 +495,7 @@ class MeditWriter {
     const MeshField* is_corner = field(true, corner_field);
     const MeshField* is_marked = field(true, required_field);
     for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
-      const FixedReasons reasons =
-          topology.fixed_reasons(i) & static_cast<FixedReasons>(~bit(FixedReason::midside));
+      const FixedReasons reasons = topology.reasons_to_stay(i);
       const bool is_required = is_marked && is_marked->number(i) != 0.0;
       if (is_required || (is_of_medit_ ? has(reasons, FixedReason::marked) : reasons != 0))
         required.push_back(std::size_t{i} + 1);

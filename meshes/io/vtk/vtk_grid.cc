@@ -84,8 +84,8 @@ std::optional<CellKind> kind_of(int vtk_type) {
 
 /// Returns the linear kind of cells of any order that have their corners only.
 std::optional<CellKind> linear_kind_of(int vtk_type, std::size_t n_nodes) {
-  const FormatElement* type = find_type(vtk_second_order_types, vtk_type);
-  if (vtk_type < VTK_LAGRANGE_CURVE || !type || type->n_corners != n_nodes) return std::nullopt;
+  const FormatElement* type = find_type(vtk_lagrange_types, vtk_type);
+  if (!type || type->n_corners != n_nodes) return std::nullopt;
   return CellKind{type->dimension, type->n_corners};
 }
 
@@ -172,7 +172,7 @@ class GridParts {
   std::size_t check_cell(std::size_t cell) {
     const int type = cells_.types[cell];
     const auto nodes = nodes_of(cell);
-    if (const FormatElement* found = find_type(vtk_second_order_types, type, nodes.size())) {
+    if (const FormatElement* found = find_vtk_type(type, nodes.size())) {
       is_second_order_ = true;
       found->order.from_file(nodes);
       return static_cast<std::size_t>(found->dimension);
@@ -190,15 +190,14 @@ class GridParts {
 
   /// Returns the number of a cell's corners.
   std::size_t n_corners_of(std::size_t cell) {
-    const auto* type = find_type(vtk_second_order_types, cells_.types[cell], nodes_of(cell).size());
+    const auto* type = find_vtk_type(cells_.types[cell], nodes_of(cell).size());
     return type ? type->n_corners : nodes_of(cell).size();
   }
 
   /// Returns the dimension of a cell; -1 if it is left out.
   int dimension_of_cell(std::size_t cell) {
     const int type = cells_.types[cell];
-    if (const FormatElement* found = find_type(vtk_second_order_types, type))
-      return found->dimension;
+    if (const FormatElement* found = find_vtk_type(type)) return found->dimension;
     const auto kind = kind_of(type);
     return kind->dimension == 0 && kind->n_nodes == 0 ? -1 : kind->dimension;
   }
@@ -280,9 +279,8 @@ class GridParts {
       parts_.notes.emplace_back("the polygonal data become an unstructured grid");
     if (has(VTK_PIXEL)) parts_.notes.emplace_back("pixels become quadrilaterals");
     if (has(VTK_VOXEL)) parts_.notes.emplace_back("voxels become hexahedra");
-    if (std::any_of(cells_.types.begin(), cells_.types.end(), [](int type) {
-          return type >= VTK_LAGRANGE_CURVE && type <= VTK_LAGRANGE_PYRAMID;
-        }))
+    if (std::any_of(cells_.types.begin(), cells_.types.end(),
+                    [](int type) { return find_type(vtk_lagrange_types, type) != nullptr; }))
       parts_.notes.emplace_back(
           "Lagrange cells become linear or quadratic cells of the same nodes");
   }

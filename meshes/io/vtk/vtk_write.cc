@@ -79,7 +79,7 @@ void set_points(const MeshView& mesh, vtkUnstructuredGrid& grid) {
 }
 
 const FormatElement* vtk_type(int dimension, std::size_t n_corners, std::size_t n_midside) {
-  return find_type(vtk_second_order_types, dimension, n_corners, n_midside);
+  return find_type(vtk_quadratic_types, dimension, n_corners, n_midside);
 }
 
 void insert_cell(vtkUnstructuredGrid& grid, int type, std::span<const NodeIndex> nodes) {
@@ -250,8 +250,7 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFie
   set_cells(elements, order, *grid);
   std::vector<int> fixed(mesh.n_nodes());
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    fixed[i] =
-        topology.is_fixed(i) && !has(topology.fixed_reasons(i), FixedReason::midside) ? 1 : 0;
+    fixed[i] = topology.reasons_to_stay(i) != 0 ? 1 : 0;
   add_array<vtkIntArray>(*grid->GetPointData(), "fixed", fixed);
   add_labels(mesh, elements, order, *grid);
   if (mesh.content()) add_content(*mesh.content(), fields, order, *grid);
