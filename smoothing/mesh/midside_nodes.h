@@ -37,27 +37,29 @@ struct MidsideCounts {
   constexpr bool operator==(const MidsideCounts&) const = default;
 };
 
+/// The elements with midside nodes.
+struct MidsideKind {
+  int dim;
+  std::size_t n_corners;
+  MidsideCounts counts;
+};
+inline constexpr std::array<MidsideKind, 12> midside_kinds{{{1, 2, {0, 0, 1}},
+                                                            {2, 3, {3, 0, 0}},
+                                                            {2, 3, {3, 0, 1}},
+                                                            {2, 4, {4, 0, 0}},
+                                                            {2, 4, {4, 0, 1}},
+                                                            {3, 4, {6, 0, 0}},
+                                                            {3, 5, {8, 0, 0}},
+                                                            {3, 5, {8, 1, 0}},
+                                                            {3, 6, {9, 0, 0}},
+                                                            {3, 6, {9, 3, 0}},
+                                                            {3, 8, {12, 0, 0}},
+                                                            {3, 8, {12, 6, 1}}}};
+
 /// Returns where the n_midside nodes of an element lie. dim: its dimension, 1 to 3. All counts are
 /// 0 if there is no such element of second order.
 constexpr MidsideCounts midside_counts(int dim, std::size_t n_corners, std::size_t n_midside) {
-  struct Kind {
-    int dim;
-    std::size_t n_corners;
-    MidsideCounts counts;
-  };
-  constexpr std::array<Kind, 12> kinds{{{1, 2, {0, 0, 1}},
-                                        {2, 3, {3, 0, 0}},
-                                        {2, 3, {3, 0, 1}},
-                                        {2, 4, {4, 0, 0}},
-                                        {2, 4, {4, 0, 1}},
-                                        {3, 4, {6, 0, 0}},
-                                        {3, 5, {8, 0, 0}},
-                                        {3, 5, {8, 1, 0}},
-                                        {3, 6, {9, 0, 0}},
-                                        {3, 6, {9, 3, 0}},
-                                        {3, 8, {12, 0, 0}},
-                                        {3, 8, {12, 6, 1}}}};
-  for (const Kind& kind : kinds)
+  for (const MidsideKind& kind : midside_kinds)
     if (kind.dim == dim && kind.n_corners == n_corners && kind.counts.sum() == n_midside)
       return kind.counts;
   return {};
@@ -86,7 +88,8 @@ void for_each_midside_place(int dim, std::span<const NodeIndex> corners,
   std::size_t next = 0;
   if (counts.edges > 0)
     for_each_edge(dim, corners.size(), [&](std::size_t a, std::size_t b) {
-      const auto [low, high] = std::minmax(corners[a], corners[b]);
+      const NodeIndex low = std::min(corners[a], corners[b]),
+                      high = std::max(corners[a], corners[b]);  // without branches
       visit(MidsidePlace{low, high, no_corner, no_corner}, midside[next++]);
     });
   if (counts.faces > 0)

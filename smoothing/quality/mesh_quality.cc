@@ -75,6 +75,15 @@ std::vector<double> cell_mean_ratios(const Mesh<dim, spacedim>& mesh) {
 }
 
 template <int dim, int spacedim>
+std::vector<double> corner_mean_ratios(const Mesh<dim, spacedim>& mesh) {
+  std::vector<double> quality(mesh.n_cells());
+  const auto& blocks = mesh.topology().blocks();
+  parallel_for(blocks.size(),
+               [&](std::size_t b) { compute_cells(mesh, blocks[b], quality.data()); });
+  return quality;
+}
+
+template <int dim, int spacedim>
 MeshQuality compute_cell_mean_ratios(const Mesh<dim, spacedim>& mesh,
                                      std::vector<double>& cell_quality) {
   const Topology& topology = mesh.topology();
@@ -230,6 +239,7 @@ void require_valid(const Mesh<dim, spacedim>& mesh, const std::string& path,
 
 #define SMOOTHFEM_INSTANTIATE(MESH)                                                 \
   template std::vector<double> cell_mean_ratios(const MESH&);                       \
+  template std::vector<double> corner_mean_ratios(const MESH&);                     \
   template MeshQuality compute_cell_mean_ratios(const MESH&, std::vector<double>&); \
   template MeshQuality mesh_quality(const MESH&);                                   \
   template void require_valid(const MESH&, const std::string&, std::span<const std::size_t>);

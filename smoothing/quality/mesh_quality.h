@@ -23,6 +23,9 @@ struct MeshQuality {
 /// volume and surface meshes. Cells of second order have that of curved_mean_ratio().
 template <int dim, int spacedim>
 std::vector<double> cell_mean_ratios(const Mesh<dim, spacedim>& mesh);
+/// Returns the mean ratio of the corners of every cell, as if all edges were straight.
+template <int dim, int spacedim>
+std::vector<double> corner_mean_ratios(const Mesh<dim, spacedim>& mesh);
 /// Writes the mean ratios to a vector of n_cells numbers; returns the quality of the mesh.
 template <int dim, int spacedim>
 MeshQuality compute_cell_mean_ratios(const Mesh<dim, spacedim>& mesh,

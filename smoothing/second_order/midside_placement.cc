@@ -69,8 +69,9 @@ MidsidePlacement<dim>::MidsidePlacement(const Mesh<dim>& initial)
       topology_(initial.shared_topology()),
       without_midside_(topology_->without_midside()) {
   const Topology& topology = *topology_;
-  std::vector<bool> is_known(initial.n_nodes(), false);
+  std::vector<std::uint8_t> is_known(initial.n_nodes(), 0);
   std::vector<MiddleNode> of_cells;
+  edges_.reserve(initial.n_nodes());
   for (CellIndex c = 0; c < topology.n_cells(); ++c) {
     const auto corners = topology.cell_nodes(c), midside = topology.midside_nodes(c);
     const auto counts = midside_counts(dim, corners.size(), midside.size());
@@ -78,7 +79,7 @@ MidsidePlacement<dim>::MidsidePlacement(const Mesh<dim>& initial)
     for_each_midside_place(dim, corners, midside, [&](const MidsidePlace& place, NodeIndex node) {
       const std::size_t position = k++;
       if (is_known[node]) return;
-      is_known[node] = true;
+      is_known[node] = 1;
       if (position < counts.edges)
         edges_.push_back({node, place[0], place[1]});
       else if (position < counts.edges + counts.faces)
@@ -99,10 +100,18 @@ void MidsidePlacement<dim>::find_bent_nodes() {
   constexpr double rounding = 1e-9;  // of coordinates in files, relative to the edge
   is_bent_.assign(initial_.size(), 0);
   const Points x(initial_);
-  for_each_node([&](const auto& node) {
+  for_each_node_in_parallel([&](const auto& node) {
     is_bent_[node.node] =
         (x[node.node] - straight(node, x)).norm() > rounding * direction(node, x).norm();
   });
+  std::vector<std::uint8_t> is_straight(topology_->n_cells());
+  parallel_for_ranges(is_straight.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (auto c = static_cast<CellIndex>(first); c < last; ++c)
+      is_straight[c] = topology_->midside_nodes(c).empty() || is_straight_simplex(c, is_bent_);
+  });
+  curved_cells_.clear();
+  for (CellIndex c = 0; c < is_straight.size(); ++c)
+    if (!is_straight[c]) curved_cells_.push_back(c);
 }
 
 template <int dim>
@@ -155,6 +164,15 @@ void MidsidePlacement<dim>::for_each_node(const Visit& visit) const {
 }
 
 template <int dim>
+template <class Visit>
+void MidsidePlacement<dim>::for_each_node_in_parallel(const Visit& visit) const {
+  parallel_for_ranges(edges_.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) visit(edges_[i]);
+  });
+  for (const MiddleNode& middle : middles_) visit(middle);
+}
+
+template <int dim>
 template <class Node>
 Point<dim> MidsidePlacement<dim>::bent(const Node& node, Points x, double part) const {
   const Points before(initial_);
@@ -164,20 +182,20 @@ Point<dim> MidsidePlacement<dim>::bent(const Node& node, Points x, double part) 
 }
 
 template <int dim>
-void MidsidePlacement<dim>::place_all(Mesh<dim>& mesh,
-                                      std::span<const std::uint8_t> quarters) const {
+std::vector<std::uint8_t> MidsidePlacement<dim>::place_all(
+    Mesh<dim>& mesh, std::span<const std::uint8_t> quarters) const {
   const auto x = mesh.coordinates();
-  const auto place = [&](const auto& node) {
+  auto is_bent = is_bent_;
+  for_each_node_in_parallel([&](const auto& node) {
     const std::uint8_t n = quarters[node.node];
-    if (!has_moved(node, x))
+    if (!has_moved(node, x)) {
       x[node.node] = initial_[node.node];
-    else
+    } else {
       x[node.node] = n == 0 ? straight(node, x) : bent(node, x, 0.25 * n);
-  };
-  parallel_for_ranges(edges_.size(), grain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) place(edges_[i]);
+      is_bent[node.node] = n > 0;
+    }
   });
-  for (const MiddleNode& middle : middles_) place(middle);
+  return is_bent;
 }
 
 template <int dim>
@@ -185,21 +203,28 @@ std::vector<double> MidsidePlacement<dim>::qualities(
     const Mesh<dim>& mesh, const std::vector<std::uint8_t>& is_bent) const {
   if (mesh.targets()) return curved_mean_ratios(mesh);
   // Straight simplices have the quality of their corners.
-  std::vector<double> quality;
-  compute_cell_mean_ratios(
-      Mesh<dim>::from_finite_points(without_midside_, mesh.copied_coordinates()), quality);
-  parallel_for_ranges(mesh.n_cells(), grain, [&](std::size_t first, std::size_t last) {
-    for (auto c = static_cast<CellIndex>(first); c < last; ++c) {
-      const auto midside = topology_->midside_nodes(c);
-      const bool is_straight_simplex =
-          topology_->cell_nodes(c).size() == dim + 1 &&
-          std::none_of(midside.begin(), midside.end(),
-                       [&](NodeIndex node) { return is_bent[node] != 0; });
-      if (!midside.empty() && !(is_straight_simplex && quality[c] > well_above_rounding_errors))
-        quality[c] = curved_mean_ratio(mesh, c);
-    }
+  std::vector<double> quality = corner_mean_ratios(mesh);
+  std::vector<CellIndex> others;
+  for (CellIndex c = 0; c < quality.size(); ++c)
+    if (!(quality[c] > well_above_rounding_errors) && !topology_->midside_nodes(c).empty())
+      others.push_back(c);
+  for (const CellIndex c : curved_cells_)
+    if (quality[c] > well_above_rounding_errors && !is_straight_simplex(c, is_bent))
+      others.push_back(c);
+  parallel_for_ranges(others.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      quality[others[i]] = curved_mean_ratio(mesh, others[i]);
   });
   return quality;
+}
+
+template <int dim>
+bool MidsidePlacement<dim>::is_straight_simplex(CellIndex c,
+                                                std::span<const std::uint8_t> is_bent) const {
+  const auto midside = topology_->midside_nodes(c);
+  return topology_->cell_nodes(c).size() == dim + 1 &&
+         std::none_of(midside.begin(), midside.end(),
+                      [&](NodeIndex node) { return is_bent[node] != 0; });
 }
 
 template <int dim>
@@ -209,23 +234,22 @@ MidsideReport MidsidePlacement<dim>::place(Mesh<dim>& mesh, double floor,
   MidsideReport report;
   std::vector<std::uint8_t> quarters(mesh.n_nodes(), 0);
   const auto x = mesh.coordinates();
-  while (true) {
-    place_all(mesh, quarters);
-    auto is_bent = is_bent_;
+  bool has_bent = false;
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    cell_quality = qualities(mesh, place_all(mesh, quarters));
+    const auto bad = bad_cells(cell_quality, floor);
+    if (bad.empty()) break;
     std::vector<std::uint8_t> may_bend(mesh.n_nodes(), 0);
     for_each_node([&](const auto& node) {
       const NodeIndex i = node.node;
-      if (!has_moved(node, x)) return;
-      may_bend[i] = is_bent_[i] && quarters[i] < whole ? once : 0;
-      is_bent[i] = quarters[i] > 0;
+      may_bend[i] = is_bent_[i] && quarters[i] < whole && has_moved(node, x) ? once : 0;
     });
-    cell_quality = qualities(mesh, is_bent);
-    bool has_changed = false;
-    for (const CellIndex c : bad_cells(cell_quality, floor)) {
+    for (const CellIndex c : bad) {
       bool can_bend = false;
       for (const NodeIndex node : topology_->midside_nodes(c))
         if (may_bend[node]) {
-          can_bend = has_changed = true;
+          can_bend = has_bent = has_changed = true;
           if (may_bend[node] == once) {
             ++quarters[node];
             may_bend[node] = done;
@@ -239,10 +263,10 @@ MidsideReport MidsidePlacement<dim>::place(Mesh<dim>& mesh, double floor,
           has_changed = true;
         }
     }
-    if (!has_changed) break;
   }
-  for_each_node(
-      [&](const auto& node) { report.n_bent += quarters[node.node] > 0 && has_moved(node, x); });
+  if (has_bent)
+    for_each_node(
+        [&](const auto& node) { report.n_bent += quarters[node.node] > 0 && has_moved(node, x); });
   return report;
 }
 
@@ -253,7 +277,7 @@ MidsideReport MidsidePlacement<dim>::repair(Mesh<dim>& mesh, std::vector<double>
   cell_quality = qualities(mesh, is_bent_);
   auto bad = bad_cells(cell_quality, 0.0);
   if (bad.empty()) return report;
-  const auto of_corners = cell_mean_ratios(Mesh<dim>(without_midside_, initial_));
+  const auto of_corners = corner_mean_ratios(mesh);
   std::erase_if(bad, [&](CellIndex c) { return !(of_corners[c] > 0.0); });
   report.n_repaired = bad.size();
   std::vector<std::uint8_t> eighths(mesh.n_nodes(), whole);

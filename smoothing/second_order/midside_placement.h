@@ -72,24 +72,33 @@ class MidsidePlacement {
   /// Calls visit(node) for all midside nodes in an order in which each depends on earlier ones.
   template <class Visit>
   void for_each_node(const Visit& visit) const;
+  /// The same; visit(node) may write to what belongs to this node only.
+  template <class Visit>
+  void for_each_node_in_parallel(const Visit& visit) const;
   /// Returns the straight place of a node plus a part of its initial offset.
   template <class Node>
   Point<dim> bent(const Node& node, Points x, double part) const;
+  /// Sets is_bent_ and curved_cells_.
   void find_bent_nodes();
+  /// True for a triangle or tetrahedron whose midside nodes are at their straight places.
+  bool is_straight_simplex(CellIndex c, std::span<const std::uint8_t> is_bent) const;
   /// Returns the mean ratio of each curved cell. is_bent: flags of midside nodes that are not at
   /// their straight places.
   std::vector<double> qualities(const Mesh<dim>& mesh,
                                 const std::vector<std::uint8_t>& is_bent) const;
   /// Returns flags of the nodes on the boundary and on interfaces.
   std::vector<bool> nodes_on_facets() const;
-  /// Places all nodes. quarters: by node, the part of the initial curvature that it keeps.
-  void place_all(Mesh<dim>& mesh, std::span<const std::uint8_t> quarters) const;
+  /// Places all nodes. quarters: by node, the part of the initial curvature that it keeps. Returns
+  /// flags of the nodes that are not at their straight places.
+  std::vector<std::uint8_t> place_all(Mesh<dim>& mesh,
+                                      std::span<const std::uint8_t> quarters) const;
 
   std::vector<Point<dim>> initial_;
   std::shared_ptr<const Topology> topology_, without_midside_;
   std::vector<EdgeNode> edges_;
-  std::vector<MiddleNode> middles_;    ///< of faces, then of cells
-  std::vector<std::uint8_t> is_bent_;  ///< by node: is not at its straight place
+  std::vector<MiddleNode> middles_;      ///< of faces, then of cells
+  std::vector<std::uint8_t> is_bent_;    ///< by node: is not at its straight place
+  std::vector<CellIndex> curved_cells_;  ///< of second order, without straight simplices
 };
 
 }  // namespace smoothfem
