@@ -249,12 +249,11 @@ void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>
               const ManufacturedSolution<dim>& solution, Load load, PoissonSystem& system) {
   const auto points = space.dof_points(x);
   const auto materials = materials_of_kinds(space.ranks, solution);
+  system.exact = space.values_at_dofs(solution.value, x, points);
   Eigen::VectorXd nodal_load = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(space.n_local));
-  for (std::size_t dof = 0; dof < space.n_local; ++dof) {
-    const auto i = static_cast<Eigen::Index>(dof);
-    system.exact[i] = solution.value(points[dof]);
-    if (load == Load::nodal && materials.empty()) nodal_load[i] = solution.load(points[dof]);
-  }
+  if (load == Load::nodal && materials.empty())
+    for (std::size_t dof = 0; dof < space.n_local; ++dof)
+      nodal_load[static_cast<Eigen::Index>(dof)] = solution.load(points[dof]);
   system.matrix.coeffs().setZero();
   system.right_hand_side.setZero();
   system.n_folded_cells = 0;

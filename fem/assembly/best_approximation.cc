@@ -66,9 +66,7 @@ template <int dim>
 void assemble_projection(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
                          const ManufacturedSolution<dim>& solution, Norm norm,
                          PoissonSystem& system) {
-  const auto points = space.dof_points(x);
-  for (std::size_t dof = 0; dof < space.n_local; ++dof)
-    system.exact[static_cast<Eigen::Index>(dof)] = solution.value(points[dof]);
+  system.exact = space.values_at_dofs(solution.value, x, space.dof_points(x));
   system.matrix.coeffs().setZero();
   system.right_hand_side.setZero();
   for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {

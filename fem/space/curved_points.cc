@@ -56,15 +56,17 @@ void CurvedPoints<dim>::find_nodes(const Map& of_mesh) {
     points_ = of_mesh;
     return;
   }
-  for (const auto& group : space_.groups)
+  for (std::size_t g = 0; g < mappings_.size(); ++g) {
+    const ElementCells& group = space_.groups[g];
     for (std::size_t cell = 0; cell < group.n_cells(); ++cell)
-      for (std::size_t k = group.element.n_vertices; k < group.element.mapping.size(); ++k) {
-        const Key key = key_in_cell(group, cell, group.element.mapping.places[k]);
+      for (std::size_t k = group.element.n_vertices; k < mappings_[g].size(); ++k) {
+        const Key key = key_in_cell(group, cell, mappings_[g].places[k]);
         const auto found = of_mesh.find(key);
         if (found != of_mesh.end() &&
             points_.emplace(key, static_cast<NodeIndex>(space_.nodes.size())).second)
           space_.nodes.push_back(found->second);
       }
+  }
 }
 
 /// Appends the k-th point of a cell or facet, whose earlier points are the last ones of the list.
@@ -90,18 +92,47 @@ CurvedPoints<dim>::CurvedPoints(const Topology* topology, FiniteElementSpace<dim
   Map of_mesh;
   for (std::size_t i = 0; i < numbers.size(); i += 5)
     of_mesh[{numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]}] = numbers[i + 4];
+  for (const auto& group : space.groups)
+    mappings_.push_back(mapping_points(dim, group.element.n_vertices, true));
   find_nodes(of_mesh);
-  for (auto& group : space.groups) {
-    const auto& element = group.element;
-    for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
-      const auto first =
-          group.vertices.begin() + static_cast<std::ptrdiff_t>(cell * element.n_vertices);
-      group.curved_points.insert(group.curved_points.end(), first,
-                                 first + static_cast<std::ptrdiff_t>(element.n_vertices));
-      for (std::size_t k = element.n_vertices; k < element.mapping.size(); ++k)
-        append(element.mapping, k, key_in_cell(group, cell, element.mapping.places[k]),
-               group.curved_points);
-    }
+  for (std::size_t g = 0; g < mappings_.size(); ++g) {
+    ElementCells& group = space.groups[g];
+    if (!space.is_curved)
+      find_boundary_points(group, mappings_[g]);
+    else
+      for (std::size_t cell = 0; cell < group.n_cells(); ++cell)
+        append_cell(group, cell, mappings_[g], group.curved_points);
+  }
+}
+
+template <int dim>
+void CurvedPoints<dim>::append_cell(const ElementCells& group, std::size_t cell,
+                                    const MappingPoints& mapping, std::vector<NodeIndex>& points) {
+  const std::size_t n_vertices = group.element.n_vertices;
+  const auto first = group.vertices.begin() + static_cast<std::ptrdiff_t>(cell * n_vertices);
+  points.insert(points.end(), first, first + static_cast<std::ptrdiff_t>(n_vertices));
+  for (std::size_t k = n_vertices; k < mapping.size(); ++k)
+    append(mapping, k, key_in_cell(group, cell, mapping.places[k]), points);
+}
+
+template <int dim>
+void CurvedPoints<dim>::find_boundary_points(const ElementCells& group,
+                                             const MappingPoints& mapping) {
+  const auto& element = group.element;
+  std::vector<std::size_t> points_of_dofs;
+  for (std::size_t i = 0; i < element.n_dofs; ++i)
+    points_of_dofs.push_back(mapping.find(element.vertices_around(i)));
+  std::vector<NodeIndex> points;
+  for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
+    const auto* dofs = &group.dofs[cell * element.n_dofs];
+    if (std::none_of(dofs, dofs + element.n_dofs,
+                     [&](std::uint32_t dof) { return space_.is_given(dof); }))
+      continue;
+    points.clear();
+    append_cell(group, cell, mapping, points);
+    for (std::size_t i = 0; i < element.n_dofs; ++i)
+      if (space_.is_given(dofs[i]) && element.vertices_around(i).size() > 1)
+        space_.boundary_points.emplace_back(dofs[i], points[points_of_dofs[i]]);
   }
 }
 

@@ -18,14 +18,15 @@ Point<dim> weighted_sum(const SubstitutePoint& sum, const std::vector<Point<dim>
   return position;
 }
 
-/// Numbers the local points of a curved space: finds the midside nodes and makes substitute points
-/// where there are none. Cells that share an edge or a face share its point, also if only one of
-/// them has a node there. So the mapped cells fit together.
+/// Numbers the local points of a space on a mesh of second order: finds the midside nodes and makes
+/// substitute points where there are none. Cells that share an edge or a face share its point, also
+/// if only one of them has a node there. So the mapped cells fit together.
 template <int dim>
 class CurvedPoints {
  public:
-  /// topology: on the root, null elsewhere. Adds midside nodes to the nodes of the space, and fills
-  /// curved_points of its groups. Collective.
+  /// topology: on the root, null elsewhere. Adds midside nodes to the nodes of the space. Fills
+  /// curved_points of its groups if it is curved, otherwise the points of its boundary dofs.
+  /// Collective.
   CurvedPoints(const Topology* topology, FiniteElementSpace<dim>& space);
 
   /// Appends the points of the mapping of a facet of this rank's cells. vertices: local nodes in
@@ -50,11 +51,17 @@ class CurvedPoints {
                   const std::vector<std::size_t>& place) const;
   static std::vector<NodeIndex> midside_nodes_by_key(const Topology& topology);
   void find_nodes(const Map& of_mesh);
+  /// Appends the points of the mapping of a cell.
+  void append_cell(const ElementCells& group, std::size_t cell, const MappingPoints& mapping,
+                   std::vector<NodeIndex>& points);
+  /// Finds the points of the boundary dofs of a straight-sided space.
+  void find_boundary_points(const ElementCells& group, const MappingPoints& mapping);
   void append(const MappingPoints& mapping, std::size_t k, const Key& key,
               std::vector<NodeIndex>& points);
 
   FiniteElementSpace<dim>& space_;
-  Map points_;  ///< local points of edges, faces and cells
+  std::vector<MappingPoints> mappings_;  ///< of the curved cells of each group
+  Map points_;                           ///< local points of edges, faces and cells
 };
 
 }  // namespace smoothfem

@@ -160,19 +160,21 @@ std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
   auto space = std::make_shared<FiniteElementSpace<dim>>();
   space->degree = degree;
   space->ranks = ranks;
-  space->is_curved = mesh != nullptr && has_curved_cells(mesh->topology(), geometry);
-  ranks.broadcast(space->is_curved);
+  bool is_of_second_order = mesh != nullptr && has_curved_cells(mesh->topology(), Geometry::curved);
+  ranks.broadcast(is_of_second_order);
+  space->is_curved = is_of_second_order && geometry == Geometry::curved;
   const NaturalBoundary natural = number_dofs(mesh, tensor_points, natural_groups, ties, *space);
   if (space->n_free == 0)
     throw InputError(
         "no unknown is left for the finite element solution: every node of the mesh is on its "
         "boundary, so refine the mesh or use degree 2");
   std::optional<CurvedPoints<dim>> curved;
-  if (space->is_curved) curved.emplace(mesh == nullptr ? nullptr : &mesh->topology(), *space);
+  if (space->is_curved || (degree == 2 && is_of_second_order))
+    curved.emplace(mesh == nullptr ? nullptr : &mesh->topology(), *space);
   space->nodes_of_ranks = ranks.gather(space->nodes);
   locate_dofs(*space);
   if (space->is_curved) locate_curved_dofs(*space);
-  find_natural_facets(natural, curved ? &*curved : nullptr, *space);
+  find_natural_facets(natural, space->is_curved ? &*curved : nullptr, *space);
   build_pattern(*space);
   find_entries(*space);
   return space;

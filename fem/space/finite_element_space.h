@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstdint>
 #include <memory>
@@ -52,7 +53,7 @@ struct NaturalFacets {
 /// How cells of second order are mapped.
 enum class Geometry {
   curved,   ///< by all their nodes
-  straight  ///< by their corners alone
+  straight  ///< by their corners alone; boundary values stay those of all nodes
 };
 
 /// A point of curved cells without a node: the weighted sum of other local points.
@@ -67,6 +68,9 @@ using SubstitutePoint = std::vector<std::pair<NodeIndex, double>>;
 /// In a curved space the cells are mapped by all their nodes, corners and midside nodes, for
 /// elements of both degrees (isoparametric ones of degree 2, superparametric ones of degree 1).
 /// Local points are the local nodes, followed by the substitute points.
+///
+/// In a straight-sided space on a mesh of second order the boundary values of degree 2 are those of
+/// the midside nodes, where the boundary is.
 template <int dim>
 struct FiniteElementSpace {
   static constexpr std::uint32_t absent = UINT32_MAX;
@@ -91,6 +95,9 @@ struct FiniteElementSpace {
   bool is_curved = false;
   std::vector<SubstitutePoint> substitute_points;  ///< each of earlier points
   std::vector<NodeIndex> curved_dof_points;        ///< the local point of each dof; curved spaces
+  /// Boundary dofs of a straight-sided space, and the local points on the curve whose values they
+  /// have.
+  std::vector<std::pair<std::uint32_t, NodeIndex>> boundary_points;
   std::vector<NodeIndex>
       nodes_of_ranks;  ///< on the root: `nodes` of all ranks, one after the other
   /// The dof at each local node; absent at unused nodes, at midside nodes of straight spaces, and
@@ -101,6 +108,8 @@ struct FiniteElementSpace {
   std::vector<std::size_t> column_numbers;  ///< number of each column among all free dofs
   Halo halo;                                ///< for vectors of n_columns entries
 
+  /// True if u is given at a dof of the boundary.
+  bool is_given(std::uint32_t dof) const { return dof >= n_columns && !is_tied(dof); }
   bool is_tied(std::uint32_t dof) const { return dof >= n_local - ties.size(); }
   /// Calls visit(dof, weight) for the dofs that a dof is the weighted mean of; for most dofs it is
   /// the dof itself.
@@ -119,6 +128,18 @@ struct FiniteElementSpace {
 
   /// Returns the coordinates of the local dofs from those of the local points.
   std::vector<Point<dim>> dof_points(std::span<const Point<dim>> local_coordinates) const;
+
+  /// Returns u at the local dofs. local_coordinates: of the local points. dof_points: of the dofs.
+  template <class Function>
+  Eigen::VectorXd values_at_dofs(const Function& u, std::span<const Point<dim>> local_coordinates,
+                                 std::span<const Point<dim>> dof_points) const {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(n_local));
+    for (std::size_t dof = 0; dof < n_local; ++dof)
+      values[static_cast<Eigen::Index>(dof)] = u(dof_points[dof]);
+    for (const auto& [dof, point] : boundary_points)
+      values[static_cast<Eigen::Index>(dof)] = u(local_coordinates[point]);
+    return values;
+  }
 };
 
 /// Gauss points in each direction. On quadrilaterals, eight agree with the thesis to 0.2 %.

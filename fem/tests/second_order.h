@@ -117,6 +117,43 @@ inline Point<2> disc_of_square(const Point<2>& p) {
   return flat ? Point<2>(a, b) : Point<2>(b, a);
 }
 
+/// Returns n layers of hexahedra on the quadrilaterals of a mesh, or of tetrahedra on its
+/// triangles, between z = 0 and 1.
+inline VolumeMesh extruded(const PlanarMesh& base, std::size_t n) {
+  std::vector<Point<3>> points;
+  for (std::size_t layer = 0; layer <= n; ++layer)
+    for (const auto& p : base.coordinates())
+      points.emplace_back(p.x(), p.y(), static_cast<double>(layer) / static_cast<double>(n));
+  CompressedRows<NodeIndex> cells;
+  const auto n_base = static_cast<NodeIndex>(base.n_nodes());
+  for (NodeIndex low = 0; low < n * n_base; low += n_base)
+    for (CellIndex c = 0; c < base.n_cells(); ++c) {
+      const auto nodes = base.topology().cell_nodes(c);
+      std::vector<NodeIndex> cell(nodes.begin(), nodes.end());
+      if (cell.size() == 3) std::sort(cell.begin(), cell.end());  // so that diagonals agree
+      cell.resize(2 * nodes.size());
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        cell[k] += low;
+        cell[nodes.size() + k] = cell[k] + n_base;
+      }
+      if (nodes.size() == 4) {
+        cells.append(cell);
+        continue;
+      }
+      for (std::size_t k = 0; k < 3; ++k) {  // cell[0..k], and k..2 of the layer above
+        std::array<NodeIndex, 4> tetrahedron;
+        for (std::size_t i = 0; i < 4; ++i) tetrahedron[i] = cell[i <= k ? i : i + 2];
+        const Point<3> a = points[tetrahedron[1]] - points[tetrahedron[0]],
+                       b = points[tetrahedron[2]] - points[tetrahedron[0]],
+                       d = points[tetrahedron[3]] - points[tetrahedron[0]];
+        if (a.cross(b).dot(d) < 0.0) std::swap(tetrahedron[2], tetrahedron[3]);
+        cells.append(std::vector<NodeIndex>(tetrahedron.begin(), tetrahedron.end()));
+      }
+    }
+  const std::size_t n_nodes = points.size();
+  return {std::make_shared<Topology>(3, n_nodes, std::move(cells)), std::move(points)};
+}
+
 /// Maps the unit square or cube to a part of a ring or spherical shell with the radii 1 and 2.
 template <int dim>
 Point<dim> shell_of_unit(const Point<dim>& p) {

@@ -105,6 +105,15 @@ TEST_P(SeveralRanksTest, CurvedCellsEqualThoseOfOneProcess) {
       auto natural = options();
       natural.load = Load::quadrature;
       natural.natural_groups = {"right"};
+      if (natural.degree == 2) {  // boundary values of midside nodes
+        auto straight = natural;
+        straight.geometry = Geometry::straight;
+        const auto record = PoissonSolver<dim>(on_root(mesh), straight, all_ranks())
+                                .solve(mesh.coordinates(), solution);
+        if (all_ranks().is_root())
+          expect_same(record,
+                      PoissonSolver<dim>(&mesh, straight).solve(mesh.coordinates(), solution));
+      }
       PoissonSolver<dim> solver(on_root(mesh), natural, all_ranks());
       const auto record = solver.solve(mesh.coordinates(), solution);
       const auto errors = solver.nodal_errors();

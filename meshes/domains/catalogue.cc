@@ -8,6 +8,7 @@
 
 #include "meshes/tools/outline.h"
 #include "smoothing/base/registry.h"
+#include "smoothing/second_order/midside_placement.h"
 
 namespace smoothfem {
 
@@ -103,17 +104,46 @@ bool Domain::is_random(const std::string& wanted) const {
          random_elements.end();
 }
 
-AnyMesh Domain::generate(const DomainParameters& parameters) const {
+DomainParameters Domain::known(const DomainParameters& parameters) const {
   DomainParameters known = parameters;
   known.elements = elements_named(parameters.elements);
   known.algorithm = algorithm_named(parameters.algorithm, known.elements);
   known.eps = eps_of(parameters.eps);
+  return known;
+}
+
+AnyMesh Domain::generate(const DomainParameters& parameters) const {
+  const DomainParameters all = known(parameters);
   try {
-    return make(known);
+    return make(all);
   } catch (const TooFewEdges& error) {
-    if (known.edge_scale > 1.0) throw too_large_scale(*this, known, error);
+    if (all.edge_scale > 1.0) throw too_large_scale(*this, all, error);
     throw;
   }
+}
+
+void Domain::require_second_order() const {
+  if (boundary) return;
+  std::string names;
+  for (const Domain& domain : domains())
+    if (domain.boundary) names += (names.empty() ? "" : ", ") + domain.name;
+  throw InputError("the domain '" + name + "' has no meshes of second order; these have: " + names);
+}
+
+SecondOrderMesh Domain::of_second_order(const AnyMesh& mesh,
+                                        const DomainParameters& parameters) const {
+  require_second_order();
+  const AnyOntoBoundary onto = boundary(known(parameters));
+  return std::visit(
+      [&]<int dim, int spacedim>(const Mesh<dim, spacedim>& linear) -> SecondOrderMesh {
+        if constexpr (dim == spacedim) {
+          auto curved = with_curved_boundary(linear, std::get<OntoBoundary<dim>>(onto));
+          const MidsideReport report = repair_midside_nodes(curved);
+          return {std::move(curved), report};
+        }
+        throw InputError("surface meshes of second order cannot be generated");
+      },
+      mesh);
 }
 
 const std::vector<std::string>& element_names() {

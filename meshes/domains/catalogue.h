@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "meshes/tools/curved_boundary.h"
+#include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {
@@ -20,6 +22,12 @@ struct DomainParameters {
   std::uint64_t seed = 1;       ///< seed of random parts of the domain's mesh, if there are any
   std::string algorithm{};      ///< of the domain's list for these elements; empty: the first one
   std::optional<double> eps{};  ///< in (0, 1], for domains that have it; nothing: their own
+};
+
+/// A mesh of second order, and what was done to make its curved cells valid.
+struct SecondOrderMesh {
+  AnyMesh mesh;
+  MidsideReport report;
 };
 
 /// A domain that `smoothfem` can mesh; studies and the command line name it.
@@ -38,10 +46,21 @@ struct Domain {
   /// Its parameters `elements` and `algorithm` are names of the domain's lists; `eps` has a value
   /// if the domain has it.
   std::function<AnyMesh(const DomainParameters&)> make;
+  /// The boundary of the domain, for the mesh that `make` returns; empty: it has no meshes of
+  /// second order.
+  std::function<AnyOntoBoundary(const DomainParameters&)> boundary{};
 
   /// Makes a valid mesh of the domain with fixed boundary nodes (on surfaces: constrained ones).
   /// Throws InputError for unsupported elements, and for an edge scale or eps out of range.
   AnyMesh generate(const DomainParameters& parameters) const;
+
+  /// Adds midside nodes on the true boundary to a mesh from generate() with the same parameters.
+  /// Inner nodes may have been moved. Cells that become invalid are repaired. Throws InputError if
+  /// the domain has no meshes of second order.
+  SecondOrderMesh of_second_order(const AnyMesh& mesh, const DomainParameters& parameters) const;
+
+  /// Throws InputError that names other domains if this one has no meshes of second order.
+  void require_second_order() const;
 
   /// Returns the elements of a name; for an empty name the default ones. Throws InputError that
   /// lists the domain's elements.
@@ -60,6 +79,9 @@ struct Domain {
 
   /// True if meshes of these elements (a name, or empty) depend on the seed.
   bool is_random(const std::string& wanted) const;
+
+ private:
+  DomainParameters known(const DomainParameters& parameters) const;
 };
 
 /// Registers a domain when its file is loaded: one namespace-scope object at the end of each file

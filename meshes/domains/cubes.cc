@@ -65,14 +65,16 @@ const RegisteredDomain cube(
      .description = "unit cube, 32 edges on each side, for solutions with fronts, layers and peaks",
      .dimension = 3,
      .elements = {"tetrahedra", "hexahedra"},
-     .make = [](const DomainParameters& p) { return generate(whole, p); }});
+     .make = [](const DomainParameters& p) { return generate(whole, p); },
+     .boundary = [](const DomainParameters&) { return flat_boundary<3>(); }});
 const RegisteredDomain fichera_corner(
     {.name = "fichera",
      .description =
          "seven unit cubes around the re-entrant corner at the origin, 16 edges per unit length",
      .dimension = 3,
      .elements = {"tetrahedra", "hexahedra"},
-     .make = [](const DomainParameters& p) { return generate(fichera, p); }});
+     .make = [](const DomainParameters& p) { return generate(fichera, p); },
+     .boundary = [](const DomainParameters&) { return flat_boundary<3>(); }});
 
 }  // namespace
 }  // namespace smoothfem

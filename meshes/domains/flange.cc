@@ -41,6 +41,25 @@ std::vector<Circle> bolt_holes() {
   return holes;
 }
 
+/// Takes points of facets on the cylinders to the cylinders. Other facets are on planes.
+Point<3> onto_flange(std::span<const Point<3>> corners, const Point<3>& point) {
+  const auto is_level = [&](const Point<3>& p) { return p.z() == corners[0].z(); };
+  if (std::all_of(corners.begin(), corners.end(), is_level)) return point;
+  std::vector<Circle> circles = bolt_holes();
+  for (const double radius : {Shape::radius, Shape::hub_radius, Shape::bore_radius})
+    circles.push_back({Point<2>::Zero(), radius});
+  for (const Circle& circle : circles) {
+    const auto is_on = [&](const Point<3>& p) {
+      return std::abs((p.head<2>() - circle.centre).norm() - circle.radius) < 1e-9 * circle.radius;
+    };
+    if (!std::all_of(corners.begin(), corners.end(), is_on)) continue;
+    const Point<2> across =
+        circle.centre + circle.radius * (point.head<2>() - circle.centre).normalized();
+    return {across.x(), across.y(), point.z()};
+  }
+  return point;
+}
+
 // --- Hexahedra -----------------------------------------------------------------------------------
 
 /// Makes quadrilaterals between the first circle and the others, with edges of about edge_length.
@@ -263,7 +282,8 @@ const RegisteredDomain registered(
          "round flange with hub, bore and eight bolt holes, of the size of Section 6.3's model",
      .dimension = 3,
      .elements = {"tetrahedra", "hexahedra"},
-     .make = generate});
+     .make = generate,
+     .boundary = [](const DomainParameters&) { return OntoBoundary<3>(onto_flange); }});
 
 }  // namespace
 }  // namespace smoothfem

@@ -185,6 +185,16 @@ PlanarCells with_n_cells(const Polygons& polygons, const GearParameters& p) {
 
 }  // namespace
 
+namespace {
+
+/// at: see divide().
+Polygons boundary_polygons(const GearParameters& p, double at = 0.0) {
+  return divide(gear_outlines(p), p.n_boundary_edges,
+                p.element_type == ElementType::triangle ? 1 : 2, at);
+}
+
+}  // namespace
+
 GearParameters gear_of_the_thesis(ElementType type, double edge_scale) {
   require_edge_scale("gear", edge_scale, 10);
   GearParameters p;
@@ -203,8 +213,7 @@ PlanarMesh generate_gear(const GearParameters& p) {
   if (!(p.edge_flips_per_cell >= 0.0))
     throw InputError("the gear's edge flips per cell must not be negative");
   const bool tri = p.element_type == ElementType::triangle;
-  const Polygons polygons = divide(gear_outlines(p), p.n_boundary_edges, tri ? 1 : 2);
-  PlanarCells cells = with_n_cells(polygons, p);
+  PlanarCells cells = with_n_cells(boundary_polygons(p), p);
   if (tri) {
     refine_to(cells, p.n_cells);
     const auto n_flips = p.edge_flips_per_cell * static_cast<double>(cells.cells.size());
@@ -215,12 +224,21 @@ PlanarMesh generate_gear(const GearParameters& p) {
 
 namespace {
 
-AnyMesh generate(const DomainParameters& p) {
+GearParameters gear_of(const DomainParameters& p) {
   const bool tri = p.elements == "triangles";
   GearParameters gear =
       gear_of_the_thesis(tri ? ElementType::triangle : ElementType::quadrilateral, p.edge_scale);
   gear.seed = p.seed;
-  return generate_gear(gear);
+  return gear;
+}
+
+AnyMesh generate(const DomainParameters& p) {
+  return generate_gear(gear_of(p));
+}
+
+AnyOntoBoundary boundary(const DomainParameters& p) {
+  const GearParameters gear = gear_of(p);
+  return boundary_through(boundary_polygons(gear), boundary_polygons(gear, 0.5));
 }
 
 const RegisteredDomain registered(
@@ -229,7 +247,8 @@ const RegisteredDomain registered(
      .dimension = 2,
      .elements = {"triangles", "quadrilaterals"},
      .random_elements = {"triangles"},
-     .make = generate});
+     .make = generate,
+     .boundary = boundary});
 
 }  // namespace
 }  // namespace smoothfem

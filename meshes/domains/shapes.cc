@@ -25,7 +25,7 @@ Outline closed_curve(const PointAt& point_at, std::size_t n_points) {
 
 }  // namespace
 
-Polygons Shape::polygons(double edge_length, std::size_t multiple_of) const {
+Polygons Shape::polygons(double edge_length, std::size_t multiple_of, double at) const {
   Polygons all;
   for (const auto& [curves, factor] : outlines) {
     double length = 0.0;
@@ -33,7 +33,7 @@ Polygons Shape::polygons(double edge_length, std::size_t multiple_of) const {
     const double n = length / (factor * edge_length * static_cast<double>(multiple_of));
     const std::size_t n_portions = std::max<std::size_t>(
         {curves.size(), static_cast<std::size_t>(std::lround(n)), std::size_t{4} / multiple_of});
-    all.push_back(divide({curves}, multiple_of * n_portions, multiple_of).front());
+    all.push_back(divide({curves}, multiple_of * n_portions, multiple_of, at).front());
   }
   return all;
 }
@@ -175,18 +175,33 @@ Shape lake() {
            {circle({-0.4, -0.25}, 0.1)}}};
 }
 
+bool has_quadrilaterals(const DomainParameters& p) {
+  return p.elements == "quadrilaterals";
+}
+
+double edge_length_of(const Shape& shape, const DomainParameters& p) {
+  constexpr double n_nodes = 1e5;
+  const double of_cell =
+      has_quadrilaterals(p) ? 1.0 : 2.0 / std::sqrt(3.0);  // area over edge^2, a node
+  const double region = area(shape.polygons(0.01, 1));
+  return p.edge_scale * std::sqrt(of_cell * region / n_nodes);
+}
+
+AnyOntoBoundary boundary(const Shape& shape, const DomainParameters& p) {
+  const double edge_length = edge_length_of(shape, p);
+  const std::size_t multiple = has_quadrilaterals(p) ? 2 : 1;
+  return boundary_through(shape.polygons(edge_length, multiple),
+                          shape.polygons(edge_length, multiple, 0.5));
+}
+
 AnyMesh generate(const std::string& name, const Shape& shape, const DomainParameters& p) {
   constexpr int largest_edge_scale = 16;
-  constexpr double n_nodes = 1e5;
   require_edge_scale(name, p.edge_scale, largest_edge_scale);
-  const bool quadrilaterals = p.elements == "quadrilaterals";
-  const double of_cell = quadrilaterals ? 1.0 : 2.0 / std::sqrt(3.0);  // area over edge^2, a node
-  const double region = area(shape.polygons(0.01, 1));
-  const double edge_length = p.edge_scale * std::sqrt(of_cell * region / n_nodes);
+  const double edge_length = edge_length_of(shape, p);
   RegionMeshing meshing{.is_graded = shape.is_graded()};
   if (p.algorithm == "delaunay") meshing.algorithm = TriangleAlgorithm::delaunay;
   if (p.algorithm == "meshadapt") meshing.algorithm = TriangleAlgorithm::mesh_adapt;
-  return mesh_of(quadrilaterals
+  return mesh_of(has_quadrilaterals(p)
                      ? mesh_quadrilaterals(shape.polygons(edge_length, 2), edge_length, meshing)
                      : mesh_region(shape.polygons(edge_length, 1), edge_length,
                                    PlanarPattern::triangles, meshing),
@@ -194,13 +209,15 @@ AnyMesh generate(const std::string& name, const Shape& shape, const DomainParame
 }
 
 RegisteredDomain shape(const std::string& name, const std::string& description, Shape (*form)()) {
-  return registered_form({.name = name,
-                          .description = description,
-                          .dimension = 2,
-                          .elements = {"triangles", "quadrilaterals"},
-                          .algorithms = {{"triangles", {"frontal", "delaunay", "meshadapt"}}},
-                          .make = {}},
-                         form, generate);
+  return registered_form(
+      {.name = name,
+       .description = description,
+       .dimension = 2,
+       .elements = {"triangles", "quadrilaterals"},
+       .algorithms = {{"triangles", {"frontal", "delaunay", "meshadapt"}}},
+       .make = {},
+       .boundary = [form](const DomainParameters& p) { return boundary(form(), p); }},
+      form, generate);
 }
 
 const RegisteredDomain registered[] = {

@@ -21,7 +21,8 @@ struct Shape {
   std::vector<ShapeOutline> outlines;
 
   /// Returns polygons with edges of about this length, a multiple of `multiple_of` on each curve.
-  Polygons polygons(double edge_length, std::size_t multiple_of) const;
+  /// at: position of the points along the edges; see divide().
+  Polygons polygons(double edge_length, std::size_t multiple_of, double at = 0.0) const;
   /// True if edges grow from some outlines to others.
   bool is_graded() const;
 };

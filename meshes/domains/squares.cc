@@ -79,14 +79,16 @@ const RegisteredDomain square(
          "unit square, 96 edges on each side, for solutions with fronts, layers and peaks",
      .dimension = 2,
      .elements = {"triangles", "quadrilaterals"},
-     .make = [](const DomainParameters& p) { return generate(unit_square, p); }});
+     .make = [](const DomainParameters& p) { return generate(unit_square, p); },
+     .boundary = [](const DomainParameters&) { return flat_boundary<2>(); }});
 const RegisteredDomain l(
     {.name = "l-shape",
      .description =
          "three unit squares around the re-entrant corner at the origin, 96 edges per unit length",
      .dimension = 2,
      .elements = {"triangles", "quadrilaterals"},
-     .make = [](const DomainParameters& p) { return generate(l_shape, p); }});
+     .make = [](const DomainParameters& p) { return generate(l_shape, p); },
+     .boundary = [](const DomainParameters&) { return flat_boundary<2>(); }});
 
 }  // namespace
 }  // namespace smoothfem

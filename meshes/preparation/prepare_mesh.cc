@@ -150,7 +150,7 @@ std::vector<MidsideNote> midside_notes(const MidsideReport& report) {
   };
   if (report.n_repaired > 0) {
     std::string sentence =
-        "curved cells were invalid before smoothing: " + std::to_string(report.n_repaired) +
+        "curved cells were invalid at first: " + std::to_string(report.n_repaired) +
         "; to repair them, " + count(report.n_relaxed, "midside node") +
         " moved towards the straight place";
     if (report.n_relaxed_on_boundary > 0)

@@ -124,6 +124,15 @@ VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cy
   return mesh_model([&] { add_solid(joined, removed); }, lengths);
 }
 
+VolumeCells mesh_ball(const EdgeLengths& lengths) {
+  return mesh_model(
+      [] {
+        gmsh::model::occ::addSphere(0.0, 0.0, 0.0, 1.0);
+        gmsh::model::occ::synchronize();
+      },
+      lengths);
+}
+
 VolumeCells mesh_extrusion(const Polygons& polygons, double length, const EdgeLengths& lengths,
                            TetrahedronAlgorithm algorithm) {
   return mesh_model([&] { add_extrusion(polygons, length); }, lengths, algorithm);

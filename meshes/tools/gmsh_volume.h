@@ -31,6 +31,9 @@ void add_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>&
 VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed,
                        const EdgeLengths& lengths);
 
+/// Meshes the ball of radius 1 about the origin in the same way.
+VolumeCells mesh_ball(const EdgeLengths& lengths);
+
 /// Meshes the region between polygons, swept along z from 0 to a length, in the same way.
 VolumeCells mesh_extrusion(const Polygons& polygons, double length, const EdgeLengths& lengths,
                            TetrahedronAlgorithm algorithm = TetrahedronAlgorithm::delaunay);

@@ -68,8 +68,8 @@ std::vector<std::size_t> portions(const std::vector<double>& lengths, std::size_
 
 }  // namespace
 
-std::vector<std::vector<Point<2>>> divide(const std::vector<Outline>& outlines, std::size_t n_edges,
-                                          std::size_t multiple_of) {
+Polygons divide(const std::vector<Outline>& outlines, std::size_t n_edges, std::size_t multiple_of,
+                double at) {
   std::vector<double> lengths;
   for (const auto& outline : outlines)
     for (const auto& curve : outline) lengths.push_back(curve.length);
@@ -83,14 +83,14 @@ std::vector<std::vector<Point<2>>> divide(const std::vector<Outline>& outlines, 
     throw InputError(message);
   }
   const std::vector<std::size_t> counts = portions(lengths, n_edges / multiple_of);
-  std::vector<std::vector<Point<2>>> polygons;
+  Polygons polygons;
   std::size_t index = 0;
   for (const auto& outline : outlines) {
     std::vector<Point<2>> polygon;
     for (const auto& curve : outline) {
       const std::size_t n = multiple_of * counts[index++];
       for (std::size_t i = 0; i < n; ++i)
-        polygon.push_back(curve.point(static_cast<double>(i) / static_cast<double>(n)));
+        polygon.push_back(curve.point((static_cast<double>(i) + at) / static_cast<double>(n)));
     }
     polygons.push_back(std::move(polygon));
   }

@@ -47,9 +47,11 @@ struct TooFewEdges : InputError {
 };
 
 /// Returns closed polygons with n_edges edges altogether, of nearly equal length, with a multiple
-/// of `multiple_of` on each curve. Throws InputError if that is not possible, TooFewEdges if
-/// n_edges is too small.
-Polygons divide(const std::vector<Outline>& outlines, std::size_t n_edges, std::size_t multiple_of);
+/// of `multiple_of` on each curve. at: position of the points along the edges; 0.5 gives, instead
+/// of the corners, the points of the curves in the middle between them. Throws InputError if that
+/// is not possible, TooFewEdges if n_edges is too small.
+Polygons divide(const std::vector<Outline>& outlines, std::size_t n_edges, std::size_t multiple_of,
+                double at = 0.0);
 
 /// Area inside the first polygon and outside the others.
 double area(const Polygons& polygons);

@@ -8,6 +8,7 @@
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/metrics/metric.h"
+#include "meshes/preparation/prepare_mesh.h"
 #include "python/module/bind.h"
 #include "python/module/python_mesh.h"
 #include "smoothing/base/find_named.h"
@@ -129,15 +130,24 @@ void bind_files(py::module_& module) {
     for (const Domain& domain : domains()) elements[domain.name.c_str()] = domain.elements;
     return elements;
   });
-  module.def("generate",
-             [](const std::string& domain, const std::string& elements, double edge_scale,
-                std::uint64_t seed, const std::string& algorithm, std::optional<double> eps) {
-               return PythonMesh(find_domain(domain).generate({.elements = elements,
-                                                               .edge_scale = edge_scale,
-                                                               .seed = seed,
-                                                               .algorithm = algorithm,
-                                                               .eps = eps}));
-             });
+  module.def("generate", [](const std::string& domain, const std::string& elements,
+                            double edge_scale, std::uint64_t seed, const std::string& algorithm,
+                            std::optional<double> eps, int order) {
+    const Domain& found = find_domain(domain);
+    if (order == 2) found.require_second_order();
+    const DomainParameters parameters{.elements = elements,
+                                      .edge_scale = edge_scale,
+                                      .seed = seed,
+                                      .algorithm = algorithm,
+                                      .eps = eps};
+    AnyMesh mesh = found.generate(parameters);
+    if (order < 2) return PythonMesh(std::move(mesh));
+    auto [curved, report] = found.of_second_order(mesh, parameters);
+    for (const auto& note : midside_notes(report))
+      if (PyErr_WarnEx(PyExc_UserWarning, note.sentence.c_str(), 3) != 0)
+        throw py::error_already_set();
+    return PythonMesh(std::move(curved));
+  });
   module.def("distort", &distort_mesh);
   module.def("quality", &quality);
   module.def("metrics", &metric_facts);

@@ -64,17 +64,18 @@ def domains():
 
 
 @_arguments.refusing_unknown
-def generate(domain, *, elements="", edge_scale=1.0, seed=1, algorithm="", eps=None):
+def generate(domain, *, elements="", edge_scale=1.0, seed=1, algorithm="", eps=None, order=1):
     """Generates a valid mesh of a domain, with fixed boundary nodes.
 
     elements: one of domains()[domain], such as "triangles". edge_scale: factor of the edge lengths, at
     least 1. seed: seed of the random numbers. algorithm: of the mesh generator, for domains that have
     several (`smoothfem list domains`). eps: of the domains kershaw and kershaw-cube, above 0 and at most 1.
+    order: 2 gives cells of second order, with midside nodes on the true boundary, for domains that have it.
     Raises InputError for unknown names and invalid numbers.
     """
     return _core.generate(_arguments.text("domain", domain), _arguments.text("elements", elements), _arguments.number("edge_scale", edge_scale),
                           _arguments.whole("seed", seed, 0, 2**64 - 1), _arguments.text("algorithm", algorithm),
-                          None if eps is None else _arguments.number("eps", eps))
+                          None if eps is None else _arguments.number("eps", eps), _arguments.whole("order", order, 1, 2))
 
 
 @_arguments.refusing_unknown

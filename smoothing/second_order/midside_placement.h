@@ -101,4 +101,11 @@ class MidsidePlacement {
   std::vector<CellIndex> curved_cells_;  ///< of second order, without straight simplices
 };
 
+/// Makes curved cells valid, as MidsidePlacement::repair() does.
+template <int dim>
+MidsideReport repair_midside_nodes(Mesh<dim>& mesh) {
+  std::vector<double> ignored;
+  return MidsidePlacement<dim>(mesh).repair(mesh, ignored);
+}
+
 }  // namespace smoothfem

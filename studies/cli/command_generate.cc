@@ -6,6 +6,7 @@
 #include "meshes/distortion/distort.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
+#include "meshes/preparation/prepare_mesh.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/standard_streams.h"
@@ -19,28 +20,32 @@ struct GenerateArguments {
   std::string distortion = distortion_kind_names[0];
   double edge_scale = 1.0, distort_to = 0.0, min_quality = 0.0;
   std::optional<double> eps;
-  int sweeps = 1;
+  int sweeps = 1, order = 1;
   std::uint64_t seed = 1;
   bool quiet = false, list = false;
 };
 
 template <int dim, int spacedim>
-void distort_and_write(Mesh<dim, spacedim>& mesh, const GenerateArguments& arguments) {
-  if (arguments.distort_to > 0.0) {
-    DistortionParameters parameters;
-    parameters.target_q_mean = arguments.distort_to;
-    parameters.seed = arguments.seed;
-    parameters.n_candidates = default_candidates(dim);
-    parameters.n_sweeps = arguments.sweeps;
-    parameters.min_quality = arguments.min_quality;
-    if (arguments.distortion == distortion_kind_names[1])
-      parameters.kind = DistortionKind::random_steps;
-    distort(mesh, parameters);
-  }
+void distort_as_asked(Mesh<dim, spacedim>& mesh, const GenerateArguments& arguments) {
+  if (arguments.distort_to == 0.0) return;
+  DistortionParameters parameters;
+  parameters.target_q_mean = arguments.distort_to;
+  parameters.seed = arguments.seed;
+  parameters.n_candidates = default_candidates(dim);
+  parameters.n_sweeps = arguments.sweeps;
+  parameters.min_quality = arguments.min_quality;
+  if (arguments.distortion == distortion_kind_names[1])
+    parameters.kind = DistortionKind::random_steps;
+  distort(mesh, parameters);
+}
+
+template <int dim, int spacedim>
+void write(const Mesh<dim, spacedim>& mesh, const GenerateArguments& arguments) {
   write_mesh(arguments.out, mesh);
   if (arguments.quiet) return;
-  std::printf("%s: %zu nodes, %zu cells (%s), q_mean %.4f\n", arguments.out.c_str(), mesh.n_nodes(),
-              mesh.n_cells(), arguments.elements.c_str(), mesh_quality(mesh).q_mean);
+  std::printf("%s: %zu nodes, %zu cells (%s%s), q_mean %.4f\n", arguments.out.c_str(),
+              mesh.n_nodes(), mesh.n_cells(), arguments.elements.c_str(),
+              arguments.order == 2 ? " of second order" : "", mesh_quality(mesh).q_mean);
 }
 
 void list_domains() {
@@ -65,12 +70,21 @@ void generate(GenerateArguments arguments) {
   require_mesh_path(arguments.out);
   const Domain& domain = find_domain(arguments.domain);
   arguments.elements = domain.elements_named(arguments.elements);
-  AnyMesh mesh = domain.generate({.elements = arguments.elements,
-                                  .edge_scale = arguments.edge_scale,
-                                  .seed = arguments.seed,
-                                  .algorithm = arguments.algorithm,
-                                  .eps = arguments.eps});
-  std::visit([&](auto& of_its_kind) { distort_and_write(of_its_kind, arguments); }, mesh);
+  if (arguments.order == 2) domain.require_second_order();
+  const DomainParameters parameters{.elements = arguments.elements,
+                                    .edge_scale = arguments.edge_scale,
+                                    .seed = arguments.seed,
+                                    .algorithm = arguments.algorithm,
+                                    .eps = arguments.eps};
+  AnyMesh mesh = domain.generate(parameters);
+  std::visit([&](auto& of_its_kind) { distort_as_asked(of_its_kind, arguments); }, mesh);
+  if (arguments.order == 2) {
+    auto [curved, report] = domain.of_second_order(mesh, parameters);
+    for (const auto& note : midside_notes(report))
+      std::fprintf(stderr, "smoothfem: %s\n", note.sentence.c_str());
+    mesh = std::move(curved);
+  }
+  std::visit([&](const auto& of_its_kind) { write(of_its_kind, arguments); }, mesh);
   if (output) print_content(output->path());
 }
 
@@ -87,6 +101,11 @@ void smoothfem_add_generate_command(CLI::App& app) {
                       joined(element_names()) + "; default: the domain's first (see list)");
   command->add_option("--algorithm", arguments->algorithm,
                       "algorithm of the mesh generator, where a domain has several (see list)");
+  command
+      ->add_option("--order", arguments->order,
+                   "1: linear cells (default); 2: cells of second order, with nodes on the true "
+                   "boundary, for domains that have it")
+      ->check(CLI::IsMember({1, 2}));
   command->add_option("--edge-scale", arguments->edge_scale,
                       "multiply edge lengths by this factor, at least 1 (default: 1)");
   command->add_option("--eps", arguments->eps,

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <thread>
 
 #include "fem/solutions/manufactured_solution.h"
@@ -444,6 +445,21 @@ TEST_F(CommandLine, GeneratesAndDistortsVolumeMeshes) {
       smoothfem({"generate", "flange", "-o", "no.vtu", "--elements", "triangles"});
   EXPECT_EQ(planar.exit_code, 2);
   EXPECT_NE(planar.err.find("tetrahedra, hexahedra"), std::string::npos) << planar.err;
+}
+
+TEST_F(CommandLine, GeneratesMeshesOfSecondOrderAlsoDistorted) {
+  const Outcome generated =
+      smoothfem({"generate", "disc", "-o", "disc.vtu", "--order", "2", "--elements",
+                 "quadrilaterals", "--edge-scale", "16", "--distort-to", "0.7"});
+  EXPECT_EQ(generated.exit_code, 0) << generated.err;
+  EXPECT_THAT(generated.out, ::testing::HasSubstr("(quadrilaterals of second order)"));
+  const auto json = nlohmann::json::parse(smoothfem({"quality", "disc.vtu", "--json"}).out);
+  EXPECT_EQ(json.at("n_invalid"), 0);
+  EXPECT_LT(json.at("q_mean").get<double>(), 0.75);
+  EXPECT_NEAR(json.at("area").get<double>(), std::numbers::pi, 1e-4);
+  const Outcome refused = smoothfem({"generate", "roof", "-o", "roof.vtu", "--order", "2"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, ::testing::HasSubstr("'roof' has no meshes of second order"));
 }
 
 TEST_F(CommandLine, GeneratesMeshesDistortedByRandomSteps) {

@@ -24,6 +24,7 @@ void check_names(const Study& study) {
       const Domain& domain = find_domain(mesh.domain);
       (void)domain.algorithm_named(mesh.algorithm, domain.elements_named(mesh.elements));
       (void)domain.eps_of(parameters_of(mesh, 1.0).eps);
+      if (mesh.order == 2) domain.require_second_order();
     }
 }
 

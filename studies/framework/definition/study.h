@@ -32,6 +32,7 @@ struct StudyMesh {
   std::string elements;        ///< of the generated mesh; empty: the domain's default
   std::string algorithm{};     ///< of the mesh generator; empty: the domain's default
   double eps = 0.0;            ///< DomainParameters::eps; 0: the domain's default
+  int order = 1;               ///< of a generated mesh: 2 has nodes on the true boundary
   bool untangle = false;       ///< make a tangled mesh of a file valid first
   /// Name of a file in the folder of --mesh-dir, in place of `file` or `domain`. It is not
   /// distorted, because published meshes are already distorted.

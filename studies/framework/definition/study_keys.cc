@@ -108,6 +108,10 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
                   "Of the domains kershaw and kershaw-cube: 1 is the uniform grid, smaller values "
                   "make its cells worse; 0: the domain's default.");
   p.declare_entry(
+      "order", "1", Patterns::Selection("1|2"),
+      "Of a generated mesh: 2 has cells of second order, with nodes on the true boundary, "
+      "for domains that have it. Distorted meshes get them afterwards.");
+  p.declare_entry(
       "untangle", "false", Patterns::Bool(),
       "Makes a tangled mesh of a file valid first, as 'smooth --untangle' does; nodes on "
       "its boundary stay.");

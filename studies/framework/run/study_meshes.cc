@@ -8,6 +8,7 @@
 #include "meshes/doctor/examine_boundary.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
+#include "meshes/preparation/prepare_mesh.h"
 #include "smoothing/geometry/extreme_size.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/optimization/untangle.h"
@@ -99,7 +100,8 @@ Source source_of(const StudyMesh& description, const std::filesystem::path& mesh
                      " has neither a file nor a domain; set one of them in its subsection");
   return {.file = {},
           .generated = "generated " + description.domain + " of " +
-                       find_domain(description.domain).elements_named(description.elements),
+                       find_domain(description.domain).elements_named(description.elements) +
+                       (description.order == 2 ? " of second order" : ""),
           .distortion = distortion_text(description)};
 }
 
@@ -121,29 +123,8 @@ bool is_untangled(const StudyMesh& description, const Source& source) {
   return description.untangle && !source.file.empty() && !source.published;
 }
 
-/// made: file of an earlier run that has the nodes after untangling and distortion, or empty.
 template <int dim, int spacedim>
-Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source, double edge_scale,
-                              const std::filesystem::path& made,
-                              std::vector<std::string>& changes) {
-  const bool untangles = is_untangled(description, source);
-  Mesh<dim, spacedim> mesh =
-      source.file.empty()
-          ? of_kind<dim, spacedim>(
-                find_domain(description.domain).generate(parameters_of(description, edge_scale)),
-                "the domain " + description.domain)
-          : read_valid_mesh<dim, spacedim>(source.file, changes, untangles);
-  if (const std::size_t n = untangles ? mesh_quality(mesh).n_invalid : 0; n > 0)
-    changes.push_back("untangled, as " + std::to_string(n) + " of " +
-                      std::to_string(mesh.n_cells()) + " cells of the file are invalid");
-  if (source.published || (!is_distorted(description) && !untangles)) return mesh;
-  if (!made.empty()) {
-    move_nodes_as_in(made, mesh);
-    return mesh;
-  }
-  if constexpr (dim == spacedim)
-    if (untangles) make_valid(source.file, mesh);
-  if (!is_distorted(description)) return mesh;
+void distort_as_described(const StudyMesh& description, Mesh<dim, spacedim>& mesh) {
   DistortionParameters parameters;
   parameters.kind = description.distortion;
   parameters.n_candidates = description.distortion_candidates;
@@ -156,6 +137,48 @@ Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source
     parameters.target_q_mean = description.distort_to_q_mean;
     distort(mesh, parameters);
   }
+}
+
+/// Makes the mesh of a domain. made: as below.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> generated_mesh(const StudyMesh& description, double edge_scale,
+                                   const std::filesystem::path& made,
+                                   std::vector<std::string>& changes) {
+  const Domain& domain = find_domain(description.domain);
+  const DomainParameters parameters = parameters_of(description, edge_scale);
+  const std::string name = "the domain " + description.domain;
+  auto mesh = of_kind<dim, spacedim>(domain.generate(parameters), name);
+  if (is_distorted(description) && made.empty()) distort_as_described(description, mesh);
+  if (description.order == 2) {
+    auto [curved, report] = domain.of_second_order(mesh, parameters);
+    mesh = of_kind<dim, spacedim>(std::move(curved), name);
+    if (made.empty())
+      for (const auto& note : midside_notes(report)) changes.push_back(note.sentence);
+  }
+  if (!made.empty() && is_distorted(description)) move_nodes_as_in(made, mesh);
+  return mesh;
+}
+
+/// made: file of an earlier run that has the nodes after untangling and distortion, or empty.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source, double edge_scale,
+                              const std::filesystem::path& made,
+                              std::vector<std::string>& changes) {
+  if (source.file.empty())
+    return generated_mesh<dim, spacedim>(description, edge_scale, made, changes);
+  const bool untangles = is_untangled(description, source);
+  auto mesh = read_valid_mesh<dim, spacedim>(source.file, changes, untangles);
+  if (const std::size_t n = untangles ? mesh_quality(mesh).n_invalid : 0; n > 0)
+    changes.push_back("untangled, as " + std::to_string(n) + " of " +
+                      std::to_string(mesh.n_cells()) + " cells of the file are invalid");
+  if (source.published || (!is_distorted(description) && !untangles)) return mesh;
+  if (!made.empty()) {
+    move_nodes_as_in(made, mesh);
+    return mesh;
+  }
+  if constexpr (dim == spacedim)
+    if (untangles) make_valid(source.file, mesh);
+  if (is_distorted(description)) distort_as_described(description, mesh);
   return mesh;
 }
 

@@ -97,6 +97,7 @@ StudyParameters own_parameters(const Study& study) {
                              {"solution/name", study.solution.name},
                              {"solution/u", study.solution.u},
                              {"solution/diffusivity", study.solution.diffusivity}};
+  if (mesh.order > 1) parameters.emplace_back(section + "order", std::to_string(mesh.order));
   for (const auto& [group, formula] : study.solution.of_groups)
     parameters.emplace_back("solution/diffusivity group " + group, formula);
   return parameters;

@@ -2,6 +2,7 @@
 #include "studies/framework/run/kept/kept_results.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -70,9 +71,8 @@ std::optional<T> load_cbor(const fs::path& folder, const std::string& name) {
   }
 }
 
-fs::path mesh_file(const fs::path& folder, const std::string& name) {
-  return folder / (name + ".mesh");
-}
+/// Extensions of initial meshes.
+constexpr std::array<const char*, 2> mesh_extensions{".mesh", ".vtk"};
 
 /// True if the trajectory's indices are valid for its records.
 bool is_consistent(const Trajectory& t) {
@@ -125,15 +125,17 @@ std::optional<SolvedRecords> KeptResults::load_solved(const std::string& name) c
 
 void KeptResults::save_mesh(const std::string& name, const fs::path& file) const {
   const std::string content = file_content(file);
-  write_atomically(mesh_file(folder_, name), content);
+  write_atomically(folder_ / (name + file.extension().string()), content);
   write_sealed(folder_, name + ".sum", sha256(content));
 }
 
 std::optional<fs::path> KeptResults::find_mesh(const std::string& name) const {
-  const fs::path file = mesh_file(folder_, name);
   const auto sum = read_sealed(folder_, name + ".sum");
-  if (!sum || sha256_of_file(file) != *sum) return std::nullopt;
-  return file;
+  for (const std::string extension : mesh_extensions) {
+    const fs::path file = folder_ / (name + extension);
+    if (sum && fs::exists(file) && sha256_of_file(file) == *sum) return file;
+  }
+  return std::nullopt;
 }
 
 bool KeptResults::has_solved(const std::string& name) const {

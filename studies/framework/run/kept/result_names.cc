@@ -72,6 +72,7 @@ void add_recipe(const StudyMesh& mesh, Ingredients& made_of) {
   // Names of meshes without these stay the same.
   if (mesh.eps > 0.0) made_of.add("eps", mesh.eps);
   if (mesh.untangle) made_of.add("untangle", 1);
+  if (mesh.order > 1) made_of.add("order", mesh.order);
   if (!is_distorted(mesh)) return;
   made_of.add("distort to", mesh.distort_to_q_mean);
   made_of.add("distort within", mesh.distort_within);

@@ -36,8 +36,8 @@ class OwnLines {
       if (!sections_.empty()) sections_.pop_back();
     } else if (read.kind == StudyLine::Kind::set && has_own_keys()) {
       own_line_ = own_line_ || contains(collection_lists, read.name) ||
-                  (sections_.empty() && contains({"kind", "published", "untangle", "families by",
-                                                  "write meshes", "time limit"},
+                  (sections_.empty() && contains({"kind", "published", "untangle", "order",
+                                                  "families by", "write meshes", "time limit"},
                                                  read.name));
     }
     return own_line_;
@@ -87,6 +87,10 @@ void declare_collection(ParameterHandler& p) {
       "eps", "", Patterns::List(Patterns::Double(0.0, 1.0)),
       "Values for the domains kershaw and kershaw-cube, separated by commas: above 0, 1 "
       "is the uniform grid. Empty: the domain's default.");
+  p.declare_entry(
+      "order", "1", Patterns::Selection("1|2"),
+      "Of generated meshes: 2 has cells of second order, with nodes on the true boundary; "
+      "all domains need to have them.");
   p.declare_entry("sizes", "1", Patterns::List(Patterns::Double(0.0), 1),
                   "Edge scales of generated meshes: 2 has edges twice as long.");
   p.declare_entry("distortions", "none", Patterns::Anything(),

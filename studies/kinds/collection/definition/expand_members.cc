@@ -182,6 +182,7 @@ class GeneratedMembers {
         algorithms_(split_list(p.get("algorithms"))),
         eps_(split_list(p.get("eps"))),
         sizes_(split_list(p.get("sizes"))),
+        order_(static_cast<int>(std::stol(p.get("order")))),
         variations_(variations) {
     for (const auto& name : elements_)
       (void)find_named("kind of elements", name, element_names(), [](const auto& n) { return n; });
@@ -191,6 +192,7 @@ class GeneratedMembers {
   }
 
   void add(const Domain& domain, double factor, std::vector<Member>& members) const {
+    if (order_ == 2) domain.require_second_order();
     const auto elements = elements_of(domain, elements_);
     if (elements.empty())
       throw InputError("the domain " + domain.name + " has none of the elements " +
@@ -204,6 +206,7 @@ class GeneratedMembers {
                       .size = size};
         member.mesh.domain = domain.name;
         member.mesh.elements = name;
+        member.mesh.order = order_;
         member.mesh.edge_scale = factor * std::stod(size);
         member.mesh.distortion_candidates = default_candidates(domain.dimension);
         for (const Member& with_eps : for_each_eps(domain, member)) {
@@ -244,6 +247,7 @@ class GeneratedMembers {
   }
 
   std::vector<std::string> elements_, algorithms_, eps_, sizes_;
+  int order_;
   const Variations& variations_;
 };
 

@@ -51,6 +51,10 @@ std::string origin_line(const std::string& domain, const Members& members) {
          (domain.empty() ? count_of(files.size(), "mesh file") : "the domain " + domain) +
          listed("elements", members, [](const Member& m) { return m.mesh.elements; }) +
          listed("algorithms", members, [](const Member& m) { return m.mesh.algorithm; }) +
+         listed("order", members,
+                [](const Member& m) {
+                  return m.mesh.order > 1 ? std::to_string(m.mesh.order) : std::string();
+                }) +
          listed("sizes", members, [](const Member& m) { return m.size; }) +
          (some_as_they_are ? "; as they are" : "") +
          listed("distorted to", members, [](const Member& m) { return m.distortion; }) +
