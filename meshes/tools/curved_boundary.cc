@@ -12,45 +12,18 @@
 
 namespace smoothfem {
 
-namespace {
-
-MidsidePlace edge_between(NodeIndex a, NodeIndex b) {
-  return {std::min(a, b), std::max(a, b), no_corner, no_corner};
-}
-
-/// Returns the midside nodes of all edges of boundary facets.
-template <int dim>
-std::map<MidsidePlace, NodeIndex> boundary_nodes(const Topology& topology) {
-  std::map<MidsidePlace, NodeIndex> nodes;
-  const auto& facets = topology.boundary_facets();
-  for (std::size_t f = 0; f < facets.size(); ++f)
-    for (std::size_t k = 0; k < facets[f].size(); ++k)
-      nodes[edge_between(facets[f][k], facets[f][(k + 1) % facets[f].size()])] = no_corner;
-  for (CellIndex c = 0; c < topology.n_cells(); ++c)
-    for_each_midside_place(dim, topology.cell_nodes(c), topology.midside_nodes(c),
-                           [&](const MidsidePlace& place, NodeIndex node) {
-                             if (const auto found = nodes.find(place); found != nodes.end())
-                               found->second = node;
-                           });
-  return nodes;
-}
-
-}  // namespace
-
 template <int dim>
 Mesh<dim> with_curved_boundary(const Mesh<dim>& linear, const OntoBoundary<dim>& onto) {
   Mesh<dim> mesh = with_midside_nodes(linear, SecondOrderKind::serendipity);
-  const auto nodes = boundary_nodes<dim>(mesh.topology());
+  const Topology& topology = mesh.topology();
+  const auto& facets = topology.boundary_facets();
+  const auto midside =
+      midside_of_facets(dim, topology.cells(), topology.midside()->of_cells, facets);
   const auto x = mesh.coordinates();
-  const auto& facets = mesh.topology().boundary_facets();
   for (std::size_t f = 0; f < facets.size(); ++f) {
     std::vector<Point<dim>> corners;
     for (const NodeIndex node : facets[f]) corners.push_back(x[node]);
-    for (std::size_t k = 0; k < (dim == 2 ? 1 : corners.size()); ++k) {
-      const NodeIndex node =
-          nodes.at(edge_between(facets[f][k], facets[f][(k + 1) % corners.size()]));
-      x[node] = onto(corners, x[node]);
-    }
+    for (const NodeIndex node : midside[f]) x[node] = onto(corners, x[node]);
   }
   return mesh;
 }

@@ -37,6 +37,10 @@ class Meshes(unittest.TestCase):
         self.assertEqual(smoothfem.Mesh(SQUARE, QUADRILATERALS).midside_nodes, {})
         with self.assertRaisesRegex(smoothfem.InputError, "tetra10.*10 nodes"):
             smoothfem.Mesh(np.array(points), {"tetra10": rows[:, :9]})
+        disc = smoothfem.generate("disc", elements="quadrilaterals", edge_scale=16, order=2)
+        self.assertAlmostEqual(smoothfem.quality(disc, "size").sum(), np.pi, places=4)
+        with self.assertRaisesRegex(smoothfem.InputError, "'roof' has no meshes of second order"):
+            smoothfem.generate("roof", order=2)
 
     def test_mixed_cells_have_blocks(self):
         cells = [[0, 1, 4, 3], [1, 2, 4], [2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]]

@@ -2,6 +2,7 @@
 #include "smoothing/mesh/midside_nodes.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <string>
@@ -64,6 +65,44 @@ std::vector<NodeIndex> reordered_midside(int dim, std::span<const NodeIndex> mid
                              result[position] = found->second;
                          });
   return result;
+}
+
+CompressedRows<NodeIndex> midside_of_facets(int dim, const CompressedRows<NodeIndex>& cells,
+                                            const CompressedRows<NodeIndex>& midside,
+                                            const CompressedRows<NodeIndex>& facets) {
+  const auto place_of = [](std::span<const NodeIndex> corners) {
+    MidsidePlace place{no_corner, no_corner, no_corner, no_corner};
+    std::copy(corners.begin(), corners.end(), place.begin());
+    std::sort(place.begin(), place.end());
+    return place;
+  };
+  const auto side_of = [&](std::span<const NodeIndex> corners, std::size_t k) {
+    return place_of(std::array{corners[k], corners[(k + 1) % corners.size()]});
+  };
+  std::map<MidsidePlace, NodeIndex> nodes;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    nodes.emplace(place_of(facets[f]), no_corner);
+    for (std::size_t k = 0; k < facets[f].size(); ++k)
+      nodes.emplace(side_of(facets[f], k), no_corner);
+  }
+  for (CellIndex c = 0; c < cells.size(); ++c)
+    for_each_midside_place(dim, cells[c], midside[c],
+                           [&](const MidsidePlace& place, NodeIndex node) {
+                             if (const auto found = nodes.find(place); found != nodes.end())
+                               found->second = node;
+                           });
+  CompressedRows<NodeIndex> rows;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    std::vector<NodeIndex> row;
+    for (std::size_t k = 0; k < (dim == 2 ? 1 : facets[f].size()); ++k)
+      row.push_back(nodes.at(side_of(facets[f], k)));
+    if (dim == 3)
+      if (const NodeIndex middle = nodes.at(place_of(facets[f])); middle != no_corner)
+        row.push_back(middle);
+    if (std::find(row.begin(), row.end(), no_corner) != row.end()) row.clear();
+    rows.append(row);
+  }
+  return rows;
 }
 
 void check_midside_nodes(int dim, std::size_t n_nodes, const CompressedRows<NodeIndex>& cells,

@@ -116,6 +116,12 @@ void for_each_midside_place(int dim, std::span<const NodeIndex> corners,
 std::vector<NodeIndex> reordered_midside(int dim, std::span<const NodeIndex> midside,
                                          std::span<const LocalIndex> corners);
 
+/// Returns the midside nodes of facets: those of their sides in order, then that in their middle,
+/// if there is one. A row is empty if a side has none. dim: of the cells. cells, midside: as below.
+CompressedRows<NodeIndex> midside_of_facets(int dim, const CompressedRows<NodeIndex>& cells,
+                                            const CompressedRows<NodeIndex>& midside,
+                                            const CompressedRows<NodeIndex>& facets);
+
 /// Throws CellError for the first cell whose midside nodes do not fit: their number is not one of
 /// the table above, a node is a corner of a cell or lies on two edges, or an edge or a face has
 /// another node in an earlier cell. dim: 2 or 3. cells: their corners, valid rows. midside: of the

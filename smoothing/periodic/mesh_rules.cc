@@ -16,6 +16,10 @@ template <int dim>
 SmoothingResult smooth_by_rules(Mesh<dim>& mesh, Method<dim>& method, const MeshRules& rules,
                                 const std::type_identity_t<Observer<dim>>& observer) {
   if (!moves_partners(mesh.topology(), rules)) return smooth(mesh, method, observer);
+  if (mesh.topology().midside() && mesh.constraints())
+    throw InputError(
+        "periodic partners cannot slide in meshes of second order; leave the boundary and the "
+        "interfaces fixed, or save the mesh with linear cells");
   if (mesh.topology().midside())
     return smooth_second_order(mesh, CornerNumbers::of_mesh, method.floor != 0, observer,
                                [&](Mesh<dim>& corners, const Observer<dim>& of_corners) {

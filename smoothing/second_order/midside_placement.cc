@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <set>
 
 #include "smoothing/base/parallel.h"
 #include "smoothing/mesh/interfaces.h"
@@ -18,26 +17,6 @@ namespace smoothfem {
 namespace {
 
 constexpr std::size_t grain = 1024;
-
-/// Returns the places of the midside nodes of these facets, and of their edges.
-template <int dim>
-std::set<MidsidePlace> places_of_facets(const CompressedRows<NodeIndex>& facets) {
-  std::set<MidsidePlace> places;
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    const auto nodes = facets[f];
-    std::vector<NodeIndex> sorted(nodes.begin(), nodes.end());
-    std::sort(sorted.begin(), sorted.end());
-    MidsidePlace whole{no_corner, no_corner, no_corner, no_corner};
-    std::copy(sorted.begin(), sorted.end(), whole.begin());
-    places.insert(whole);
-    if (dim == 3)
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const auto [low, high] = std::minmax(nodes[k], nodes[(k + 1) % nodes.size()]);
-        places.insert({low, high, no_corner, no_corner});
-      }
-  }
-  return places;
-}
 
 /// Turns and scales a vector as an edge: from `before` to `after`.
 template <int dim>
@@ -67,7 +46,8 @@ template <int dim>
 MidsidePlacement<dim>::MidsidePlacement(const Mesh<dim>& initial)
     : initial_(initial.copied_coordinates()),
       topology_(initial.shared_topology()),
-      without_midside_(topology_->without_midside()) {
+      without_midside_(topology_->without_midside()),
+      constraints_(initial.shared_constraints()) {
   const Topology& topology = *topology_;
   std::vector<std::uint8_t> is_known(initial.n_nodes(), 0);
   std::vector<MiddleNode> of_cells;
@@ -107,7 +87,8 @@ void MidsidePlacement<dim>::find_bent_nodes() {
   std::vector<std::uint8_t> is_straight(topology_->n_cells());
   parallel_for_ranges(is_straight.size(), grain, [&](std::size_t first, std::size_t last) {
     for (auto c = static_cast<CellIndex>(first); c < last; ++c)
-      is_straight[c] = topology_->midside_nodes(c).empty() || is_straight_simplex(c, is_bent_);
+      is_straight[c] = topology_->midside_nodes(c).empty() ||
+                       (is_straight_simplex(c, is_bent_) && !any_slides(c));
   });
   curved_cells_.clear();
   for (CellIndex c = 0; c < is_straight.size(); ++c)
@@ -191,8 +172,11 @@ std::vector<std::uint8_t> MidsidePlacement<dim>::place_all(
     if (!has_moved(node, x)) {
       x[node.node] = initial_[node.node];
     } else {
+      const bool on_surface = slides(node.node);
       x[node.node] = n == 0 ? straight(node, x) : bent(node, x, 0.25 * n);
-      is_bent[node.node] = n > 0;
+      if (on_surface)
+        x[node.node] = constraints_->project(node.node, a_corner_of(node, x), x[node.node]);
+      is_bent[node.node] = n > 0 || on_surface;
     }
   });
   return is_bent;
@@ -243,7 +227,8 @@ MidsideReport MidsidePlacement<dim>::place(Mesh<dim>& mesh, double floor,
     std::vector<std::uint8_t> may_bend(mesh.n_nodes(), 0);
     for_each_node([&](const auto& node) {
       const NodeIndex i = node.node;
-      may_bend[i] = is_bent_[i] && quarters[i] < whole && has_moved(node, x) ? once : 0;
+      may_bend[i] =
+          is_bent_[i] && quarters[i] < whole && has_moved(node, x) && !slides(i) ? once : 0;
     });
     for (const CellIndex c : bad) {
       bool can_bend = false;
@@ -316,14 +301,12 @@ MidsideReport MidsidePlacement<dim>::repair(Mesh<dim>& mesh, std::vector<double>
 
 template <int dim>
 std::vector<bool> MidsidePlacement<dim>::nodes_on_facets() const {
-  auto places = places_of_facets<dim>(topology_->boundary_facets());
-  places.merge(places_of_facets<dim>(inner_interfaces(*topology_).facets));
   std::vector<bool> flags(initial_.size(), false);
-  for (CellIndex c = 0; c < topology_->n_cells(); ++c)
-    for_each_midside_place(dim, topology_->cell_nodes(c), topology_->midside_nodes(c),
-                           [&](const MidsidePlace& place, NodeIndex node) {
-                             flags[node] = flags[node] || places.contains(place);
-                           });
+  for (const auto& facets : {topology_->boundary_facets(), inner_interfaces(*topology_).facets}) {
+    const auto nodes =
+        midside_of_facets(dim, topology_->cells(), topology_->midside()->of_cells, facets);
+    for (const NodeIndex node : nodes.entries()) flags[node] = true;
+  }
   return flags;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -8,6 +9,7 @@
 
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/mesh.h"
+#include "smoothing/mesh/node_constraints.h"
 
 namespace smoothfem {
 
@@ -17,7 +19,8 @@ namespace smoothfem {
 /// keep their curves and surfaces. Any other node goes to its straight place: the middle of its
 /// edge; in a face or a cell the place that the nodes of its edges and faces ask for (transfinite
 /// interpolation). Straight inner cells have affine mappings, for which elements of degree 2 are
-/// best. But a curved boundary may cut through straight edges. Where a cell becomes invalid, or
+/// best. Where corners slide on a surface, its midside nodes go to the nearest place on it. But a
+/// curved boundary may cut through straight edges. Where a cell becomes invalid, or
 /// worse than the worst one asked for, nodes inside take on their initial curvature again, a
 /// quarter at a time: the offset from the straight place, turned and scaled with the edge. Where
 /// that does not suffice, corners go back to their initial places.
@@ -69,6 +72,11 @@ class MidsidePlacement {
     return x[middle.corners[middle.corners.size() == 3 ? 1 : 2]] - x[middle.corners[0]];
   }
 
+  static const Point<dim>& a_corner_of(const EdgeNode& edge, Points x) { return x[edge.a]; }
+  static const Point<dim>& a_corner_of(const MiddleNode& middle, Points x) {
+    return x[middle.corners[0]];
+  }
+
   /// Calls visit(node) for all midside nodes in an order in which each depends on earlier ones.
   template <class Visit>
   void for_each_node(const Visit& visit) const;
@@ -80,6 +88,16 @@ class MidsidePlacement {
   Point<dim> bent(const Node& node, Points x, double part) const;
   /// Sets is_bent_ and curved_cells_.
   void find_bent_nodes();
+  /// True if the mesh's constraints keep the node on a surface.
+  bool slides(NodeIndex node) const {
+    return constraints_ &&
+           constraints_->classifications()[node].kind != GeometricClassification::none;
+  }
+  bool any_slides(CellIndex c) const {
+    const auto midside = topology_->midside_nodes(c);
+    return constraints_ && std::any_of(midside.begin(), midside.end(),
+                                       [&](NodeIndex node) { return slides(node); });
+  }
   /// True for a triangle or tetrahedron whose midside nodes are at their straight places.
   bool is_straight_simplex(CellIndex c, std::span<const std::uint8_t> is_bent) const;
   /// Returns the mean ratio of each curved cell. is_bent: flags of midside nodes that are not at
@@ -95,10 +113,11 @@ class MidsidePlacement {
 
   std::vector<Point<dim>> initial_;
   std::shared_ptr<const Topology> topology_, without_midside_;
+  std::shared_ptr<const NodeConstraints<dim>> constraints_;
   std::vector<EdgeNode> edges_;
   std::vector<MiddleNode> middles_;      ///< of faces, then of cells
   std::vector<std::uint8_t> is_bent_;    ///< by node: is not at its straight place
-  std::vector<CellIndex> curved_cells_;  ///< of second order, without straight simplices
+  std::vector<CellIndex> curved_cells_;  ///< of second order, without simplices that stay straight
 };
 
 /// Makes curved cells valid, as MidsidePlacement::repair() does.

@@ -49,7 +49,9 @@ class CornerMesh {
       std::iota(same_cells.begin(), same_cells.end(), CellIndex{0});
       topology = topology->reordered(nodes_, same_cells);
     }
-    return {std::move(topology), std::move(points), nullptr, mesh.shared_targets()};
+    return {std::move(topology), std::move(points),
+            numbers == CornerNumbers::dense ? nullptr : mesh.shared_constraints(),
+            mesh.shared_targets()};
   }
 
   std::vector<NodeIndex> nodes_;  ///< of the mesh of second order
@@ -64,9 +66,7 @@ SmoothingResult smooth_second_order(
     const std::type_identity_t<Observer<dim>>& observer,
     const std::type_identity_t<std::function<SmoothingResult(Mesh<dim>&, const Observer<dim>&)>>&
         smooth_corners) {
-  if (mesh.constraints())
-    throw InputError(
-        "nodes of the boundary cannot slide in meshes of second order; leave the boundary fixed");
+  if (mesh.constraints()) numbers = CornerNumbers::of_mesh;  // as the constraints
   double preparation_seconds = 0.0, placing_seconds = 0.0;
   std::optional<MidsidePlacement<dim>> placement;
   std::optional<CornerMesh<dim>> corners;

@@ -18,7 +18,8 @@ enum class CornerNumbers {
 /// and midside nodes follow (midside_placement.h). The observer gets meshes whose midside nodes are
 /// placed. Qualities in records and in the result are those of curved cells. keeps_floor: no cell
 /// becomes worse than the worst one before. If the initial mesh is valid, or can be repaired, so is
-/// the result, for every method. Throws InputError for nodes that slide.
+/// the result, for every method. Where nodes slide, midside nodes of moved sides and facets go to
+/// the nearest place on the initial curved surface.
 template <int dim>
 SmoothingResult smooth_second_order(
     Mesh<dim>& mesh, CornerNumbers numbers, bool keeps_floor,

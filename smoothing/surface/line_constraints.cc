@@ -33,17 +33,28 @@ LineConstraints::LineConstraints(const SurfaceFacets& edges, std::span<const Poi
       classifications_(coordinates.size()) {
   const double height = mean_length(edges_, coordinates);
   std::vector<Point<3>> points;
-  for (const NodeIndex node : edges_.entries())
-    if (wall_nodes_[node] == absent) {
-      wall_nodes_[node] = static_cast<NodeIndex>(points.size());
-      points.push_back(in_space(coordinates[node]));
-    }
+  for (const auto& rows : {edges_, edges.midside})
+    for (const NodeIndex node : rows.entries())
+      if (wall_nodes_[node] == absent) {
+        wall_nodes_[node] = static_cast<NodeIndex>(points.size());
+        points.push_back(in_space(coordinates[node]));
+      }
   const auto n = static_cast<NodeIndex>(points.size());
   for (NodeIndex i = 0; i < n; ++i) points.push_back(points[i] + height * Point<3>::UnitZ());
   SurfaceFacets wall{{}, edges.tags, {}};
+  if (edges.midside.size() > 0)  // nodes in the middle of the wall's upright edges
+    for (NodeIndex i = 0; i < n; ++i)
+      points.push_back(points[i] + 0.5 * height * Point<3>::UnitZ());
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const NodeIndex a = wall_nodes_[edges_[e][0]], b = wall_nodes_[edges_[e][1]];
     wall.nodes.append(std::array{a, b, b + n, a + n});
+    if (edges.midside.size() == 0) continue;
+    std::vector<NodeIndex> row;
+    if (!edges.midside[e].empty()) {
+      const NodeIndex middle = wall_nodes_[edges.midside[e][0]];
+      row = {middle, b + 2 * n, middle + n, a + 2 * n};
+    }
+    wall.midside.append(row);
   }
   wall_ = std::make_unique<const SurfaceConstraints>(wall, points, parameters);
   for (NodeIndex i = 0; i < classifications_.size(); ++i)

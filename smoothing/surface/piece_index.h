@@ -8,20 +8,24 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "smoothing/surface/nearest_point.h"
+#include "smoothing/surface/quadratic_piece.h"
 
 namespace smoothfem {
 
-/// A triangle of a smooth part, or a segment (c = b) of a feature line.
+/// A triangle of a smooth part, or a segment (c = b) of a feature line; or a curved piece.
 struct Piece {
   Point<3> a, b, c;
   std::uint32_t part;
+  std::shared_ptr<const QuadraticPiece> curved = {};
 
   Point<3> nearest(const Point<3>& p) const {
+    if (curved) return curved->nearest(p);
     return c == b ? nearest_on_segment(p, a, b) : nearest_on_triangle(p, a, b, c);
   }
 };
@@ -80,8 +84,11 @@ class PieceIndex {
   std::vector<Entry> entries() const {
     std::vector<Entry> all;
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
-      const auto& [a, b, c, part] = pieces_[i];
-      all.emplace_back(box_between(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)), i);
+      const Piece& p = pieces_[i];
+      all.emplace_back(
+          p.curved ? box_between(p.curved->box().first, p.curved->box().second)
+                   : box_between(p.a.cwiseMin(p.b).cwiseMin(p.c), p.a.cwiseMax(p.b).cwiseMax(p.c)),
+          i);
     }
     return all;
   }

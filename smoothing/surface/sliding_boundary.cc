@@ -86,6 +86,9 @@ SlidingFacets sliding_facets(const Mesh<dim>& mesh, SlidingSurfaces what) {
     }
   }
   surfaces.marked_edges = labelled_edges(topology);
+  if (topology.midside())
+    surfaces.midside =
+        midside_of_facets(dim, topology.cells(), topology.midside()->of_cells, surfaces.nodes);
   return {std::move(surfaces), std::move(reasons)};
 }
 
@@ -94,9 +97,12 @@ std::shared_ptr<const NodeConstraints<dim>> sliding_constraints(
     const SurfaceFacets& facets, std::span<const Point<dim>> coordinates,
     const FeatureParameters& parameters, double slide_distance) {
   require_slide_distance(slide_distance);
+  // Curved facets follow the surface, so that their chords may be far from it.
+  const bool is_curved = facets.midside.n_entries() > 0;
   return std::make_shared<const Constraints<dim>>(
       facets, coordinates, parameters,
-      slide_distance * mean_edge_length<dim>(facets.nodes, coordinates));
+      is_curved ? NodeConstraints<dim>::unbounded
+                : slide_distance * mean_edge_length<dim>(facets.nodes, coordinates));
 }
 
 template <int dim>

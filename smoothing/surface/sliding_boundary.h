@@ -39,7 +39,8 @@ std::shared_ptr<const NodeConstraints<dim>> sliding_constraints(
 /// borders between labelled facets of different tags. Inner nodes keep their reasons to stay.
 /// slide_distance: largest distance from the boundary of the midpoints of facets and of their
 /// sides, as a fraction of the boundary's mean edge length. Facets cut across curved parts; steps
-/// beyond the distance are not taken. Throws InputError unless it is above 0; infinity means no
+/// beyond the distance are not taken. Facets of second order have no such limit, as their midside
+/// nodes lie on the boundary. Throws InputError unless it is above 0; infinity means no
 /// limit. what: which surfaces nodes slide on. Interfaces are those of inner_interfaces(); where
 /// they meet each other or the boundary are feature lines (in the plane: corners). Nodes of
 /// surfaces that do not slide stay.

@@ -2,6 +2,7 @@
 #include "smoothing/surface/surface_constraints.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "smoothing/base/parallel.h"
@@ -14,10 +15,21 @@ namespace smoothfem {
 
 namespace {
 
+Piece curved_piece(std::span<const NodeIndex> nodes, std::span<const Point<3>> x,
+                   std::uint32_t part) {
+  std::vector<Point<3>> points;
+  for (const NodeIndex node : nodes) points.push_back(x[node]);
+  return {points[0], points[1], points[2], part, std::make_shared<const QuadraticPiece>(points)};
+}
+
 std::vector<Piece> triangles_of(const SurfaceFacets& facets, std::span<const Point<3>> x,
                                 const std::vector<std::uint32_t>& patches) {
   std::vector<Piece> triangles;
   for (std::uint32_t f = 0; f < facets.nodes.size(); ++f) {
+    if (const auto curved = facets.curved_nodes(f); !curved.empty()) {
+      triangles.push_back(curved_piece(curved, x, patches[f]));
+      continue;
+    }
     const auto nodes = facets.nodes[f];
     const std::size_t n = nodes.size();
     if (n == 3) {
@@ -36,6 +48,10 @@ std::vector<Piece> segments_of(const SurfaceFeatures& features, std::span<const 
   std::vector<Piece> segments;
   for (std::size_t e = 0; e < features.feature_edges.size(); ++e) {
     const auto [a, b] = features.feature_edges[e];
+    if (const NodeIndex middle = features.edge_middles[e]; middle != no_corner) {
+      segments.push_back(curved_piece(std::array{a, b, middle}, x, features.edge_lines[e]));
+      continue;
+    }
     segments.push_back({x[a], x[b], x[b], features.edge_lines[e]});
   }
   return segments;

@@ -15,7 +15,8 @@ class PieceIndex;  // smoothing/surface/piece_index.h
 
 /// Keeps nodes on their part of a surface: nodes of smooth parts on these, nodes of a feature line
 /// on the line, corners at their positions (thesis, Section 5.1.2). The surface is its initial
-/// mesh; a facet with more than three nodes becomes triangles around the mean of its nodes. Only
+/// mesh; a linear facet with more than three nodes becomes triangles around the mean of its nodes,
+/// and a facet of second order is the image of its shape functions (nearest points by Newton). Only
 /// the node's own smooth part or line counts, so that it cannot change over to another sheet of the
 /// surface. Facets between moved nodes cut across curved parts; their distance may be bounded, too.
 class SurfaceConstraints final : public NodeConstraints<3> {

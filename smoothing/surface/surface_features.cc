@@ -4,11 +4,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <tuple>
 
 #include "smoothing/geometry/cell_size.h"
+#include "smoothing/surface/quadratic_piece.h"
 
 namespace smoothfem {
 
@@ -77,8 +79,20 @@ class FeatureSearch {
       : facets_(facets),
         x_(coordinates),
         cosine_(std::cos(angle_degrees * std::numbers::pi / 180.0)) {
-    for (std::uint32_t f = 0; f < facets.nodes.size(); ++f)
+    for (std::uint32_t f = 0; f < facets.nodes.size(); ++f) {
       normals_.push_back(facet_normal(facets.nodes[f], coordinates));
+      const auto curved = facets.curved_nodes(f);
+      if (curved.empty()) continue;
+      const std::size_t n = facets.nodes[f].size();
+      std::vector<Point<3>> points;
+      for (const NodeIndex node : curved) points.push_back(coordinates[node]);
+      const QuadraticPiece piece(points);
+      for (std::size_t k = 0; k < n; ++k) {
+        const NodeIndex a = curved[k], b = curved[(k + 1) % n];
+        middles_[sorted_edge(a, b)] = curved[n + k];
+        side_normals_[{sorted_edge(a, b), f}] = piece.normal_at_side(k);
+      }
+    }
   }
 
   SurfaceFeatures find() {
@@ -99,7 +113,18 @@ class FeatureSearch {
                        ", in the same direction; orient all facets alike");
     if (!facets_.tags.empty() && facets_.tags[a] != facets_.tags[b]) return true;
     if (std::binary_search(marked_.begin(), marked_.end(), sides[0].edge)) return true;
-    return normals_[a].dot(normals_[b]) < cosine_;
+    return normal_at(sides[0]).dot(normal_at(sides[1])) < cosine_;
+  }
+
+  /// Returns the unit normal of a facet, of a curved one in the middle of a side.
+  const Point<3>& normal_at(const Side& side) const {
+    const auto found = side_normals_.find({side.edge, side.facet});
+    return found == side_normals_.end() ? normals_[side.facet] : found->second;
+  }
+
+  NodeIndex middle_of(const Edge& edge) const {
+    const auto found = middles_.find(edge);
+    return found == middles_.end() ? no_corner : found->second;
   }
 
   void find_edges_and_patches() {
@@ -146,13 +171,30 @@ class FeatureSearch {
     for (NodeIndex i = 0; i < x_.size(); ++i)
       if (nodes[i].kind == GeometricClassification::line)
         nodes[i].part = result_.edge_lines[edges_at[i][0]];
+    classify_midside_nodes();
+  }
+
+  void classify_midside_nodes() {
+    auto& nodes = result_.classifications;
+    for (std::uint32_t f = 0; f < facets_.midside.size(); ++f)
+      for (const NodeIndex i : facets_.midside[f])
+        nodes[i] = {GeometricClassification::patch, result_.facet_patches[f]};
+    for (std::uint32_t e = 0; e < result_.feature_edges.size(); ++e) {
+      const NodeIndex middle = middle_of(result_.feature_edges[e]);
+      result_.edge_middles.push_back(middle);
+      if (middle != no_corner)
+        nodes[middle] = {GeometricClassification::line, result_.edge_lines[e]};
+    }
   }
 
   bool continues_straight(NodeIndex node, const std::vector<std::uint32_t>& edges) const {
     if (edges.size() != 2) return false;
     const auto direction_to_other_end = [&](std::uint32_t e) {
       const Edge& edge = result_.feature_edges[e];
-      return Point<3>((x_[edge[0] == node ? edge[1] : edge[0]] - x_[node]).normalized());
+      const Point<3> to_end = x_[edge[0] == node ? edge[1] : edge[0]] - x_[node];
+      const NodeIndex middle = middle_of(edge);
+      if (middle == no_corner) return Point<3>(to_end.normalized());
+      return Point<3>((4.0 * (x_[middle] - x_[node]) - to_end).normalized());
     };
     return -direction_to_other_end(edges[0]).dot(direction_to_other_end(edges[1])) >= cosine_;
   }
@@ -161,6 +203,8 @@ class FeatureSearch {
   std::span<const Point<3>> x_;
   double cosine_;
   std::vector<Point<3>> normals_;
+  std::map<std::pair<Edge, std::uint32_t>, Point<3>> side_normals_;  ///< of curved facets
+  std::map<Edge, NodeIndex> middles_;
   std::vector<Edge> marked_;
   SurfaceFeatures result_;
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "smoothing/mesh/midside_nodes.h"
 #include "smoothing/mesh/node_constraints.h"
 
 namespace smoothfem {
@@ -14,6 +15,18 @@ struct SurfaceFacets {
   CompressedRows<NodeIndex> nodes;
   std::vector<int> tags;  ///< labels whose borders are features; empty: none
   std::vector<std::array<NodeIndex, 2>> marked_edges;  ///< edges that are features at any angle
+  /// Of each facet of second order, the nodes of its sides and in its middle; empty rows, or none,
+  /// for linear facets.
+  CompressedRows<NodeIndex> midside = {};
+
+  /// Returns corners and midside nodes of a facet; nothing if it is linear.
+  std::vector<NodeIndex> curved_nodes(std::size_t facet) const {
+    std::vector<NodeIndex> row;
+    if (midside.size() == 0 || midside[facet].empty()) return row;
+    for (const auto part : {nodes[facet], midside[facet]})
+      row.insert(row.end(), part.begin(), part.end());
+    return row;
+  }
 };
 
 /// Rules for feature edges of a surface, which smoothing has to keep.
@@ -30,9 +43,14 @@ struct SurfaceFeatures {
   std::vector<GeometricClassification> classifications;  ///< of each node
   std::vector<std::uint32_t> facet_patches;              ///< smooth part of each facet
   std::vector<std::array<NodeIndex, 2>> feature_edges;   ///< the lower node first, ascending
-  std::vector<std::uint32_t> edge_lines;                 ///< line of each feature edge
+  std::vector<NodeIndex> edge_middles;    ///< of each feature edge; no_corner: it is straight
+  std::vector<std::uint32_t> edge_lines;  ///< line of each feature edge
 };
 
+/// Angles of facets of second order are those between their normals in the middle of the common
+/// edge, and between the tangents of feature lines at their common node. Midside nodes belong to
+/// the line of their edge, or to the smooth part of their facet.
+///
 /// Throws InputError for an angle out of range, and for two facets that run along their common edge
 /// in the same direction. All sides of a facet without area are features.
 SurfaceFeatures find_features(const SurfaceFacets& facets, std::span<const Point<3>> coordinates,
