@@ -3,7 +3,7 @@
 
 from ..claims.reasons import reference
 from ..results.data_folder import data_folder
-from . import answer, elasticity, fidelity, finite_elements, moving_nodes, paper, sizes
+from . import answer, curved, elasticity, fidelity, finite_elements, moving_nodes, paper, sizes
 
 
 def blocks():
@@ -14,6 +14,7 @@ def blocks():
     return {
         data_folder() / "README.md": {"findings": answer.in_short(found)},
         docs / "explanation" / "answer.md": answer.blocks(found, reference()),
+        docs / "explanation" / "curved-study.md": curved.blocks(reference()),
         docs / "explanation" / "elasticity-study.md": elasticity.blocks(reference()),
         docs / "explanation" / "finite-elements.md": finite_elements.blocks(reference()),
         docs / "explanation" / "fidelity.md": of_thesis,

@@ -161,8 +161,7 @@ TEST_P(MethodsThatSlide, KeepAllNodesOfTheBoundaryOnTheCurvedSurface) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Some, MethodsThatSlide,
-                         testing::Values("laplace", "smart-laplace", "getme",
-                                         "global-optimization"),
+                         testing::Values("laplace", "smart-laplace", "getme", "getme-simultaneous"),
                          test::test_name);
 
 TEST(CurvedSliding, OnStraightSidesEqualsThatOfTheLinearMesh) {

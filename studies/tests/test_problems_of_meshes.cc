@@ -5,8 +5,12 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <numeric>
 
 #include "fem/tests/second_order.h"
+#include "meshes/io/mesh_file.h"
+#include "smoothing/second_order/curved_quality.h"
 #include "studies/framework/run/constraints/hanging_nodes.h"
 #include "studies/framework/run/constraints/periodic_nodes.h"
 #include "studies/framework/run/run_study.h"
@@ -94,8 +98,10 @@ TEST_F(ProblemOfMesh, GroupsHaveTheirDiffusivity) {
 
 /// Degree 2 has linear functions on curved cells, and quadratic ones on straight cells.
 TEST_F(ProblemOfMesh, CellsOfSecondOrderAreCurvedUnlessTheGeometryIsStraight) {
-  write_mesh(file("mesh.msh"),
-             second_order(unit_square(4, Cells::mixed, 0.1), false, shell_of_unit<2>));
+  const auto bent_inside = [](const Point<2>& p) -> Point<2> {
+    return p + Point<2>::Constant(3.0 * p.x() * p.y() * (1.0 - p.x()) * (1.0 - p.y()));
+  };
+  write_mesh(file("mesh.msh"), second_order(unit_square(4, Cells::mixed, 0.1), false, bent_inside));
   const auto problem = [](const std::string& u) {
     return "set degrees = 2\nsubsection solution\n set u = " + u + "\nend\n";
   };
@@ -119,6 +125,26 @@ TEST_F(ProblemOfMesh, CellsOfSecondOrderAreCurvedUnlessTheGeometryIsStraight) {
       refused(problem("x") +
               "set solvers = poisson, stock\nsubsection solver stock\n set type = deal.II\nend\n"),
       testing::AllOf(HasSubstr("solver stock"), HasSubstr("set geometry = straight")));
+}
+
+TEST_F(ProblemOfMesh, GeneratedCellsOfSecondOrderAreKeptWithTheirNodes) {
+  const auto with_methods = [](const std::string& methods) {
+    return "set meshes = disc\nset methods = " + methods +
+           "\nset timing runs = 1\nset degrees = 2\nsubsection mesh disc\n set domain = disc\n"
+           " set order = 2\n set edge scale = 16\n set distort to = 0.7\nend\n"
+           "subsection solution\n set u = x^2\nend\n";
+  };
+  std::vector<std::string> meshes;
+  for (const std::string methods : {"laplace", "laplace, getme-simultaneous"}) {
+    run_study(read_study(file_with("disc.prm", with_methods(methods))),
+              {.out = file("out"), .mesh_dir = {}, .quiet = true, .n_threads = 1});
+    meshes.push_back(content_of(file("out") / "meshes/disc_initial.vtk"));
+  }
+  EXPECT_EQ(meshes[0], meshes[1]);
+  const AnyMesh mesh = read_mesh(file("out") / "meshes/disc_getme-simultaneous.vtu").mesh;
+  const auto sizes = curved_cell_sizes(std::get<PlanarMesh>(mesh));
+  EXPECT_NEAR(std::accumulate(sizes.begin(), sizes.end(), 0.0), std::numbers::pi, 1e-4);
+  EXPECT_THAT(content_of(file("out") / "provenance.json"), HasSubstr("of second order"));
 }
 
 /// A facet approximates the circle with an error of the order 2, like the elements.

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers of the page on curved elements: the studies `curved` and `curved-straight`."""
+
+from collections import Counter
+
+import numpy as np
+
+from ..results.rows import entries, read_rows
+from ..results.smoothing import read_provenance
+from .blocks import table
+from .reference import geometric_mean, tables_of
+
+CURVED, STRAIGHT = "curved", "curved-straight"
+ERRORS = {"h1_error": "H1", "l2_error": "L2"}
+LEAST_CHANGE = 0.01  # of a ratio from 1, by the criteria of the page
+AS_GENERATED = "as generated"
+
+
+def blocks(reference):
+    """The blocks of the page."""
+    found = {study: errors_of(reference / study) for study in (CURVED, STRAIGHT)}
+    titles = {method["name"]: method["title"] for method in entries(read_provenance(reference / CURVED / "provenance.json"), "methods")}
+    return {"counts": counts(found[CURVED], titles), "methods": methods(found[CURVED], titles), "edges": edges(found),
+            "orders": orders(reference)}
+
+
+def errors_of(folder):
+    """{(domain, elements, level, size): {(method, error): value}} of the valid results of a study."""
+    found = {}
+    for row in read_rows(folder / "summary.csv").records():
+        if row["status"] == "ok" and row["n_invalid"] == "0":
+            mesh = row["domain"], row["elements"], row["distortion"] or AS_GENERATED, float(row["size"])
+            for error in ERRORS:
+                found.setdefault(mesh, {})[row["method"], error] = float(row[error])
+    return found
+
+
+def ratios(of_mesh, method, error):
+    """Error after over before smoothing; NaN without a valid result."""
+    return of_mesh.get((method, error), np.nan) / of_mesh.get(("initial", error), np.nan)
+
+
+def counts(found, titles):
+    """How often each method helps and harms on curved cells."""
+    rows = []
+    for level in (AS_GENERATED, "0.6"):
+        meshes = [of_mesh for mesh, of_mesh in found.items() if mesh[2] == level]
+        for method, name in titles.items():
+            for error, title in ERRORS.items():
+                kinds = Counter(kind(ratios(of_mesh, method, error)) for of_mesh in meshes)
+                rows.append((level, name, title, len(meshes), kinds["helps"], kinds["same"], kinds["harms"], kinds["none"],
+                             "yes" if kinds["helps"] > len(meshes) / 2 and not kinds["harms"] else "no"))
+    return table(("level", "method", "error", "meshes", "helps", "about the same", "harms", "no result", "pays"), rows, "lllrrrrrl")
+
+
+def kind(ratio):
+    """What a ratio means by the criteria."""
+    if np.isnan(ratio):
+        return "none"
+    return "helps" if ratio < 1 - LEAST_CHANGE else "harms" if ratio > 1 + LEAST_CHANGE else "same"
+
+
+def methods(found, titles):
+    """The part of the H1 error that each method leaves, as a geometric mean over the sizes."""
+    cases = sorted({mesh[:3] for mesh in found}, key=lambda case: (case[2] != AS_GENERATED, *case))
+    rows = []
+    for case in cases:
+        of_sizes = [of_mesh for mesh, of_mesh in found.items() if mesh[:3] == case]
+        rows.append((case[2], case[0], case[1], len(of_sizes),
+                     *(f"{geometric_mean([ratios(of_mesh, method, 'h1_error') for of_mesh in of_sizes]):.3f}" for method in titles)))
+    return table(("level", "domain", "elements", "sizes", *titles.values()), rows, "lllr" + "r" * len(titles))
+
+
+def edges(found):
+    """Errors with straight over those with curved edges at the finest size, before and after GETMe."""
+    rows = []
+    for mesh in sorted(found[CURVED], key=lambda mesh: (mesh[2] != AS_GENERATED, *mesh)):
+        if mesh[3] > min(other[3] for other in found[CURVED] if other[:3] == mesh[:3]) or mesh not in found[STRAIGHT]:
+            continue
+        curved, straight = (found[study][mesh] for study in (CURVED, STRAIGHT))
+        rows.append((mesh[2], mesh[0], mesh[1], *(f"{straight[method, error] / curved[method, error]:.2f}"
+                                                if (method, error) in straight and (method, error) in curved else "–"
+                                                for method in ("initial", "getme") for error in ERRORS)))
+    return table(("level", "domain", "elements", *(f"{title}, {when}" for when in ("initial", "GETMe") for title in ERRORS.values())),
+                 rows, "lllrrrr")
+
+
+def orders(reference):
+    """The orders of the errors with curved and straight edges, of the initial meshes and of GETMe's."""
+    of_study = {study: {(row["Level"], row["Family"], row["Elements"], row["Method"]): row
+                        for row in tables_of(reference, study, "table_orders")} for study in (CURVED, STRAIGHT)}
+    rows = []
+    for case in sorted(of_study[CURVED], key=lambda case: (case[0] != AS_GENERATED, *case[:3], case[3] != "Initial")):
+        if case[3] in ("Initial", "GETMe") and case in of_study[STRAIGHT]:
+            rows.append((*case, *(of_study[study][case][f"Order of {title}"] for study in (CURVED, STRAIGHT) for title in ("L2", "H1"))))
+    return table(("level", "domain", "elements", "mesh", "curved, L2", "curved, H1", "straight, L2", "straight, H1"), rows, "llllrrrr")
