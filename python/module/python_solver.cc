@@ -33,6 +33,7 @@ class PythonSolver final : public MeshSolver<dim> {
       : declared_(definition.attr("parameters")), python_(definition) {
     traits_.needs_mpi = py::cast<bool>(definition.attr("gives_matrix"));
     traits_.takes_ties = true;  // the class gets the mesh as it is
+    traits_.takes_curved_cells = py::cast<bool>(definition.attr("takes_curved_cells"));
     traits_.degrees = py::cast<std::vector<int>>(definition.attr("degrees"));
     traits_.has_energy = py::cast<bool>(definition.attr("has_energy"));
     traits_.has_indicators = py::cast<bool>(definition.attr("has_indicators"));

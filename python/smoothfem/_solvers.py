@@ -39,6 +39,7 @@ class SolverDefinition:
         self.has_energy = self._has_energy()
         self.has_indicators = callable(getattr(self.given, "indicators", None))
         self.gives_matrix = bool(getattr(self.given, "gives_matrix", False))
+        self.takes_curved_cells = bool(getattr(self.given, "takes_curved_cells", False))
         self.degrees = self._degrees(getattr(self.given, "degrees", ()))
         self.numbers = [self._number(*entry) for entry in dict(getattr(self.given, "numbers", {})).items()]
 

@@ -3,6 +3,7 @@
 
 import csv
 import json
+import math
 
 from .built import EXAMPLES, PROGRAM, run
 from .smoother_files import InAFolder
@@ -148,6 +149,42 @@ class SolverClasses(InAFolder):
         solver = json.loads((self.folder / "out" / "provenance.json").read_text(encoding="utf-8"))["solvers"][1]
         self.assertEqual(solver["type"], "python:checked.py:Checked")
         self.assertEqual(solver["files"][0]["name"], "checked.py")
+
+    def test_curved_cells_are_for_classes_that_take_them(self):
+        (self.folder / "area.py").write_text(
+            "import smoothfem\n"
+            "class Straight:\n"
+            "    def solve(self, mesh):\n"
+            "        return {'order': mesh.order, 'area': smoothfem.quality(mesh, 'size').sum()}\n"
+            "class Curved(Straight):\n"
+            "    takes_curved_cells = True\n", encoding="utf-8")
+        text = """set meshes = disc
+set methods = laplace
+set solvers = mine
+set timing runs = 1
+subsection mesh disc
+  set domain = disc
+  set order = 2
+  set edge scale = 16
+end
+subsection solver mine
+  set type = python:area.py:NAME
+end
+"""
+        for name, more, found in (("Curved", "", (2, math.pi)), ("Straight", "set geometry = straight", (1, 3.1)), ("Straight", "", ())):
+            with self.subTest(name, more=more):
+                study = text.replace("NAME", name) + f"subsection finite elements\n{more}\nend\n"
+                (self.folder / "my.prm").write_text(study, encoding="utf-8")
+                outcome = run(PROGRAM, "study", "my.prm", "--no-figures", "--quiet", "--force", "--out", "out", folder=self.folder, check=False)
+                if not found:
+                    self.assertEqual(outcome.returncode, 2)
+                    self.assertIn("set geometry = straight", outcome.stderr)
+                    continue
+                self.assertEqual(outcome.returncode, 0, outcome.stderr)
+                with open(self.folder / "out" / "summary.csv", newline="", encoding="utf-8") as stream:
+                    row = next(csv.DictReader(stream))
+                self.assertEqual(float(row["mine.order"]), found[0])
+                self.assertAlmostEqual(float(row["mine.area"]), found[1], delta=1e-4 if name == "Curved" else .05)
 
     def test_classes_that_are_no_solvers_are_refused(self):
         (self.folder / "wrong.py").write_text(MISTAKES, encoding="utf-8")
