@@ -6,12 +6,12 @@ import math
 import matplotlib.pyplot as pyplot
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import PathCollection, PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.patches import PathPatch, Rectangle
 
 from . import style
-from .planar_geometry import bounding_box, cells_in, outline_path, polygons_of, window_of
+from .planar_geometry import bounding_box, cells_in, outline_path, paths_of, polygons_of, window_of
 
 MOST_COLUMNS = 4
 DETAIL_ASPECT = 1.3
@@ -111,8 +111,8 @@ def draw_mesh(axes, grid, window):
     # In a full view dark edges would hide the colours of the smallest elements.
     edges = {"edgecolors": "0.15", "linewidths": 0.25} if window is not None else {
         "edgecolors": "face", "linewidths": 0.1}
-    cells = PolyCollection(polygons_of(grid, chosen), cmap=style.QUALITY_MAP, norm=QUALITY_RANGE,
-                           joinstyle="round", **edges)
+    kind, shapes = (PathCollection, paths_of) if grid.curved else (PolyCollection, polygons_of)
+    cells = kind(shapes(grid, chosen), cmap=style.QUALITY_MAP, norm=QUALITY_RANGE, joinstyle="round", **edges)
     cells.set_array(quality if chosen is None else quality[chosen])
     cells.set_rasterized(window is None and len(quality) > MOST_VECTORS)
     axes.add_collection(cells)

@@ -4,6 +4,8 @@
 import numpy as np
 from matplotlib.path import Path
 
+from .planar_curves import control_points, curved_path, extremes
+
 LEAST_FILLED = 0.5  # of the area of a detail
 SMALLER_WINDOWS = (1.0, 0.7, 0.5, 0.35)  # than wanted, where a domain is too narrow
 
@@ -14,6 +16,12 @@ def edges_of(grid):
     # The last node of a cell is followed by its first one, not by the next cell's.
     following[grid.offsets[1:] - 1] = grid.connectivity[grid.offsets[:-1]]
     return np.column_stack([grid.connectivity, following])
+
+
+def parabolas_of(grid):
+    """(first, second, third) control points of all edges of edges_of(grid) of a curved grid, each of shape (n, 2)."""
+    edges = edges_of(grid)
+    return grid.points[edges[:, 0], :2], control_points(grid, edges), grid.points[edges[:, 1], :2]
 
 
 def boundary_loops(grid):
@@ -46,6 +54,11 @@ def boundary_loops(grid):
 
 def outline_path(grid):
     """The domain as one compound path; the opposite sense of the holes keeps them unfilled."""
+    if grid.curved:
+        number = {edge: k for k, edge in enumerate(map(tuple, edges_of(grid).tolist()))}
+        parabolas, loops = parabolas_of(grid), boundary_loops(grid)
+        edges = [[number[edge] for edge in zip(loop, loop[1:] + loop[:1])] for loop in loops]
+        return Path.make_compound_path(*(curved_path(*(points[part] for points in parabolas)) for part in edges))
     vertices, codes = [], []
     for loop in boundary_loops(grid):
         points = grid.points[loop, :2]
@@ -72,23 +85,39 @@ def polygons_of(grid, chosen=None):
     return [points[grid.connectivity[grid.offsets[c]:grid.offsets[c + 1]]] for c in cells]
 
 
+def paths_of(grid, chosen=None):
+    """The outlines of all cells of a curved grid, or of those with `chosen` true."""
+    cells = range(len(grid.types)) if chosen is None else np.flatnonzero(chosen)
+    parabolas = parabolas_of(grid)
+    parts = (slice(grid.offsets[c], grid.offsets[c + 1]) for c in cells)
+    return [curved_path(*(points[part] for points in parabolas)) for part in parts]
+
+
 def centroids(grid):
-    """The mean of each cell's nodes, shape (n_cells, 2)."""
+    """The mean of each cell's corners, shape (n_cells, 2)."""
     sums = np.add.reduceat(grid.points[grid.connectivity, :2], grid.offsets[:-1], axis=0)
     return sums / np.diff(grid.offsets)[:, None]
 
 
 def bounding_box(grid):
     """(x_min, y_min, x_max, y_max)."""
-    low, high = grid.points[:, :2].min(axis=0), grid.points[:, :2].max(axis=0)
-    return (*low, *high)
+    low, high = extremes(*parabolas_of(grid)) if grid.curved else (grid.points[:, :2], grid.points[:, :2])
+    return (*low.min(axis=0), *high.max(axis=0))
 
 
 def areas(grid):
     """The area of each cell, shape (n_cells,); those of cells that overlap themselves cancel."""
     tails, heads = np.moveaxis(grid.points[edges_of(grid), :2], 1, 0)
-    doubled = tails[:, 0] * heads[:, 1] - tails[:, 1] * heads[:, 0]
+    doubled = cross(tails, heads)
+    if grid.curved:
+        tails, controls, heads = parabolas_of(grid)
+        doubled = (2 * cross(tails, controls) + 2 * cross(controls, heads) + doubled) / 3
     return 0.5 * np.abs(np.add.reduceat(doubled, grid.offsets[:-1]))
+
+
+def cross(a, b):
+    """The third component of the cross product of vectors (n, 2)."""
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
 def window_of(grid, centre, width, aspect):
@@ -119,6 +148,7 @@ def window_of(grid, centre, width, aspect):
 def cells_in(grid, window):
     """A mask of the cells whose bounding boxes meet the window, shape (n_cells,)."""
     points = grid.points[grid.connectivity, :2]
-    low = np.minimum.reduceat(points, grid.offsets[:-1], axis=0)
-    high = np.maximum.reduceat(points, grid.offsets[:-1], axis=0)
+    low, high = extremes(*parabolas_of(grid)) if grid.curved else (points, points)
+    low = np.minimum.reduceat(low, grid.offsets[:-1], axis=0)
+    high = np.maximum.reduceat(high, grid.offsets[:-1], axis=0)
     return ((high >= window[:2]) & (low <= window[2:])).all(axis=1)

@@ -3,12 +3,12 @@
 smoothed meshes by planes. Where cells are large, a cut along whole cells shows another layer of them
 in each mesh."""
 
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import LineCollection, PolyCollection
 
 from . import style
 from .meshes import QUALITY_RANGE, columns_of, draw_blocks, frame
 from .render import Scene, render
-from .section_geometry import in_plane, section
+from .section_geometry import in_plane, section, section_lines
 from .sections import AMBIENT, MOST_COLUMNS, first_grid, pixels_of, quality_colours, show
 from .volume_geometry import MODEL_DIRECTION, Cut, view_of
 
@@ -66,8 +66,11 @@ def window(grid, cut):
 def draw_section(axes, grid, cut):
     """The cells that the plane crosses, coloured by their mean ratio."""
     polygons, cells = section(grid, cut)
-    faces = PolyCollection(polygons, cmap=style.QUALITY_MAP, norm=QUALITY_RANGE, joinstyle="round",
-                           edgecolors="0.15", linewidths=0.25)
+    # Pieces of curved cells have the edges of their own colour, lest light shines through between them.
+    edges = {"edgecolors": "face", "linewidths": 0.25} if grid.curved else {"edgecolors": "0.15", "linewidths": 0.25}
+    faces = PolyCollection(polygons, cmap=style.QUALITY_MAP, norm=QUALITY_RANGE, joinstyle="round", **edges)
     faces.set_array(grid.cell_data["mean_ratio"][cells])
     axes.add_collection(faces)
+    if grid.curved:
+        axes.add_collection(LineCollection(section_lines(grid, cut), colors="0.15", linewidths=0.25, capstyle="round"))
     frame(axes, window(grid, cut), boxed=False)

@@ -15,15 +15,18 @@ from typing import Optional
 import numpy as np
 
 from ..results.vtu import NoVtk, vtk_grid, vtk_module
+from .curved_faces import outer_faces, pieces_along_edges
 from .virtual_display import NoDisplay, virtual_display
 from .volume_geometry import View
-from .vtk_surface import face_keys, surface_of, with_faces
+from .vtk_surface import curved_edges, curved_surface, face_keys, surface_of, with_faces
 
 # Each pixel is the mean of this squared: smooth edges, the same on every machine, unlike the
 # multisampling of OpenGL drivers.
 SUPERSAMPLING = 2
 LIGHT = (-0.4, 0.7, 1.0)  # from the upper left: relative to the viewer, x to the right, y upwards
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
+CELL_EDGE_WIDTH, FEATURE_EDGE_WIDTH = 1.0, 2.5  # pixels
+MERGED = 1e-9  # distance of points that are the same, relative to the size of the mesh
 FEATURE_ANGLE = 30.0  # degrees between two faces from which on their common edge is drawn
 
 
@@ -104,8 +107,8 @@ def draw_scene(scene):
 
 def actors_of(scene):
     """The plain surface or that with values, the faces that were opened, and feature edges."""
-    from vtkmodules.vtkFiltersCore import vtkFeatureEdges
-
+    if scene.grid.curved:
+        return curved_actors(scene)
     surface = surface_of(coloured_grid(scene))
     if scene.cell_colours is None:
         found = [actor_of(surface, scene, scene.point_values is not None)]
@@ -117,15 +120,49 @@ def actors_of(scene):
         found = [actor_of(with_faces(surface, chosen), scene, coloured)
                  for chosen, coloured in ((~opened, False), (opened, True)) if chosen.any()]
     if scene.feature_edges:
-        edges = vtkFeatureEdges()
-        edges.SetInputData(surface)
-        edges.SetFeatureAngle(FEATURE_ANGLE)
-        edges.ColoringOff()
-        edges.ManifoldEdgesOff()
-        edges.NonManifoldEdgesOff()
-        edges.Update()
-        found.append(line_actor(edges.GetOutput()))
+        found.append(feature_edges(surface))
     return found
+
+
+def curved_actors(scene):
+    """Like actors_of, of a grid with cells of second order."""
+    from vtkmodules.vtkFiltersCore import vtkCleanPolyData
+
+    grid, faces = scene.grid, outer_faces(scene.grid, scene.cells)
+    n = pieces_along_edges(sum(len(part.nodes) for part in faces))
+    groups = [(faces, scene.point_values is not None)]
+    if scene.cell_colours is not None:
+        whole = np.concatenate([part.keys(len(grid.points)) for part in outer_faces(grid)])
+        opened = [~np.isin(part.keys(len(grid.points)), whole) | scene.outside_coloured for part in faces]
+        groups = [([part.chosen(mask == coloured) for part, mask in zip(faces, opened)], coloured) for coloured in (False, True)]
+    found = []
+    for parts, coloured in groups:
+        parts = [part for part in parts if len(part.nodes)]
+        if parts:
+            found.append(actor_of(curved_surface(parts, grid.points, n, scene.cell_colours, scene.point_values), scene, coloured))
+            if scene.cell_edges and coloured:
+                found.append(line_actor(curved_edges(parts, grid.points, n), CELL_EDGE_WIDTH))
+    if scene.feature_edges:
+        merged = vtkCleanPolyData()  # an edge has two faces where these share their points
+        merged.SetInputData(curved_surface(faces, grid.points, n))
+        merged.SetTolerance(MERGED)
+        merged.Update()
+        found.append(feature_edges(merged.GetOutput()))
+    return found
+
+
+def feature_edges(surface):
+    """Lines where two faces meet at an angle."""
+    from vtkmodules.vtkFiltersCore import vtkFeatureEdges
+
+    edges = vtkFeatureEdges()
+    edges.SetInputData(surface)
+    edges.SetFeatureAngle(FEATURE_ANGLE)
+    edges.ColoringOff()
+    edges.ManifoldEdgesOff()
+    edges.NonManifoldEdgesOff()
+    edges.Update()
+    return line_actor(edges.GetOutput(), FEATURE_EDGE_WIDTH)
 
 
 def coloured_grid(scene):
@@ -144,7 +181,7 @@ def coloured_grid(scene):
 
 
 def actor_of(surface, scene, coloured):
-    """The faces, with flat light: what looks curved on a coarse mesh is not."""
+    """The faces, with flat light unless they are curved: what looks curved on a coarse mesh of flat faces is not."""
     from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
     mapper = vtkPolyDataMapper()
@@ -166,14 +203,15 @@ def actor_of(surface, scene, coloured):
     actor.SetMapper(mapper)
     look = actor.GetProperty()
     look.SetColor(*scene.plain_colour)
-    look.SetInterpolationToFlat()
+    has_normals = surface.GetPointData().GetNormals() is not None
+    (look.SetInterpolationToPhong if has_normals else look.SetInterpolationToFlat)()
     look.SetAmbient(scene.ambient)
     look.SetDiffuse(1 - scene.ambient)
     look.SetSpecular(0)
-    if scene.cell_edges and coloured:
+    if scene.cell_edges and coloured and not has_normals:
         look.EdgeVisibilityOn()
         look.SetEdgeColor(0.15, 0.15, 0.15)
-        look.SetLineWidth(1.0 * SUPERSAMPLING)
+        look.SetLineWidth(CELL_EDGE_WIDTH * SUPERSAMPLING)
     return actor
 
 
@@ -188,8 +226,8 @@ def lookup_table(colours):
     return table
 
 
-def line_actor(lines):
-    """Thin dark lines."""
+def line_actor(lines, width):
+    """Thin dark lines of a width in pixels."""
     from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
     mapper = vtkPolyDataMapper()
@@ -198,7 +236,7 @@ def line_actor(lines):
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().SetColor(0.15, 0.15, 0.15)
-    actor.GetProperty().SetLineWidth(2.5 * SUPERSAMPLING)
+    actor.GetProperty().SetLineWidth(width * SUPERSAMPLING)
     actor.GetProperty().LightingOff()
     return actor
 

@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from .curved_faces import triangles_of_curved
 from .planar_geometry import bounding_box, triangles_of
 
 MOST_SAMPLES = 1 << 22  # at a time: what they need of memory
@@ -10,15 +11,15 @@ MOST_SAMPLES = 1 << 22  # at a time: what they need of memory
 
 def resampled(grid, values, width):
     """Samples values in the middles of the pixels of an array of so many columns over the bounding box of a mesh, the
-    first row at the bottom. Values are linear on triangles, into which other cells are split. Outside of the mesh they
+    first row at the bottom. Values are linear on triangles, into which other cells are split, also curved ones. Outside of the mesh they
     are NaN, but pixels next to it have the values of their neighbours."""
     x_min, y_min, x_max, y_max = bounding_box(grid)
     scale = width / (x_max - x_min)
     picture = np.full((max(1, round(scale * (y_max - y_min))), width), np.nan)
     # In pixels, whose middles are at whole numbers.
-    points = (grid.points[:, :2] - (x_min, y_min)) * scale - 0.5
-    corners = points[triangles_of(grid)]
-    numbers = np.asarray(values, dtype=float)[triangles_of(grid)]
+    values = np.column_stack([grid.points[:, :2], values])  # of each node
+    at_corners = triangles_of_curved(grid, values) if grid.curved else values[triangles_of(grid)]
+    corners, numbers = (at_corners[:, :, :2] - (x_min, y_min)) * scale - 0.5, at_corners[:, :, 2]
     first = np.floor(corners.min(axis=1)).astype(int)
     sizes = (np.ceil(corners.max(axis=1)).astype(int) + 1 - first).max(axis=1)
     for size in np.unique(1 << np.ceil(np.log2(sizes)).astype(int)):

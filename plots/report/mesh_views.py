@@ -7,9 +7,11 @@ x < middle of the initial mesh.
 
 import base64
 from dataclasses import dataclass
+from typing import Callable
 
 import numpy as np
 
+from ..figures.curved_faces import all_faces, distinct_edges, outer_faces
 from ..figures.volume_geometry import cell_centres
 from ..figures.vtk_surface import faces_of, surface_of
 from ..results.rows import ResultsError
@@ -23,6 +25,7 @@ VERDICT_CELLS = {5: "Triangle", 9: "Quad", 10: "Tet", 12: "Hex"}
 STEPS = 255  # a number of a cell is one of so many between 0 and 1
 N_WORST = 10
 MOST_TRIANGLES = 150_000  # a page with more would be slow to open
+CURVED_PIECES = (4, 2)  # along each edge of a curved face, as many as there is room for
 
 
 def base64_of(values, kind):
@@ -32,11 +35,24 @@ def base64_of(values, kind):
 
 @dataclass(frozen=True)
 class Faces:
-    """Faces to draw: triangles (n, 3) of nodes, the cell of each, and the edges (m, 2) of the cells."""
+    """Faces to draw: triangles (n, 3) of points, the cell of each, and the edges (m, 2) of the cells."""
 
     triangles: np.ndarray
     cells: np.ndarray
     edges: np.ndarray
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Name -> faces of an initial mesh. `places` takes a mesh of the same cells and returns all points of the faces: its nodes,
+    or those of pieces of curved faces."""
+
+    faces: dict
+    places: Callable = lambda grid: grid.points
+
+    @property
+    def n_triangles(self):
+        return sum(len(part.triangles) for part in self.faces.values())
 
 
 def seen_of(grid, chosen=None):
@@ -62,11 +78,11 @@ def seen_of(grid, chosen=None):
 
 def metrics_of(grid):
     """Name -> a number in [0, 1] for each cell: the mean ratio of the file, and what VTK computes where it knows
-    all of the grid's types of cells. NaN counts as 0."""
+    all of the grid's types of cells: not for curved cells, of which it would see the corners only. NaN counts as 0."""
     found = {}
     if MEAN_RATIO in grid.cell_data:
         found[MEAN_RATIO] = grid.cell_data[MEAN_RATIO]
-    if set(np.unique(grid.types)) <= set(VERDICT_CELLS):
+    if not grid.curved and set(np.unique(grid.types)) <= set(VERDICT_CELLS):
         vtk = vtk_grid(grid)
         for name, measure in VERDICT.items():
             quality = vtk_module("vtkFiltersVerdict").vtkMeshQuality()
@@ -79,13 +95,44 @@ def metrics_of(grid):
     return {name: np.clip(np.nan_to_num(values, nan=0.0), 0.0, 1.0) for name, values in found.items()}
 
 
-def parts_of(grid):
-    """Name -> faces that can be drawn of an initial mesh."""
+def masks_of(grid):
+    """Name of a part -> mask of its cells, None for all."""
     if not grid.is_volume:
-        return {"mesh": seen_of(grid)}
+        return {"mesh": None}
     centres = cell_centres(grid)[:, 0]
     middle = (centres.min() + centres.max()) / 2.0
-    return {"surface": seen_of(grid), "cut": seen_of(grid, centres < middle)}
+    return {"surface": None, "cut": centres < middle}
+
+
+def parts_of(grid):
+    """What can be drawn of an initial mesh; curved faces in as many pieces as a page has room for."""
+    if not grid.curved:
+        return Parts({name: seen_of(grid, mask) for name, mask in masks_of(grid).items()})
+    outer = {name: outer_faces(grid, mask) if grid.is_volume else all_faces(grid) for name, mask in masks_of(grid).items()}
+    for n in CURVED_PIECES:
+        parts = curved_parts(outer, n)
+        if parts.n_triangles <= MOST_TRIANGLES:
+            break
+    return parts
+
+
+def curved_parts(outer, n):
+    """Parts of curved faces, a list of them by name, with n pieces along each edge."""
+    found, first = {}, 0
+    for name, faces in outer.items():
+        triangles, cells, edges = ([np.empty(shape, dtype=np.int64)] for shape in ((0, 3), 0, (0, 2)))
+        for part, chosen in zip(faces, distinct_edges(faces)):
+            pieces = part.triangles(n, first)
+            lines = part.lines(n, first)[chosen]
+            triangles.append(pieces.reshape(-1, 3))
+            cells.append(np.repeat(part.cells, pieces.shape[1]))
+            edges.append(np.stack([lines[:, :-1], lines[:, 1:]], axis=2).reshape(-1, 2))
+            first += part.n_points(n)
+        found[name] = Faces(*map(np.concatenate, (triangles, cells, edges)))
+
+    def places(grid):
+        return np.concatenate([part.interpolated(grid.points, n).reshape(-1, 3) for faces in outer.values() for part in faces])
+    return Parts(found, places)
 
 
 def mesh_view(results, mesh):
@@ -95,13 +142,15 @@ def mesh_view(results, mesh):
         initial = read_vtu(results.mesh_file(mesh, INITIAL))
     except (ResultsError, NoVtk):
         return None
-    parts = parts_of(initial)
-    if sum(len(part.triangles) for part in parts.values()) > MOST_TRIANGLES:
+    drawn = parts_of(initial)
+    if drawn.n_triangles > MOST_TRIANGLES:
         return None
+    parts = drawn.faces
     nodes = np.unique(np.concatenate([part.triangles.ravel() for part in parts.values()]))
     cells = np.unique(np.concatenate([part.cells for part in parts.values()]))
-    lower = initial.points.min(axis=0)
-    extent = max(float(np.ptp(initial.points, axis=0).max()), np.finfo(float).tiny)
+    places = drawn.places(initial)[nodes]
+    lower = places.min(axis=0)
+    extent = max(float(np.ptp(places, axis=0).max()), np.finfo(float).tiny)
     states = {}
     for method in (INITIAL, *results.methods):
         try:
@@ -109,7 +158,7 @@ def mesh_view(results, mesh):
         except ResultsError:
             continue  # the method failed
         if len(grid.points) == len(initial.points) and len(grid.types) == len(initial.types):
-            states[method] = state_of(grid, nodes, cells, lower, extent)
+            states[method] = state_of(grid, drawn.places(grid)[nodes], cells, lower, extent)
     return {"planar": initial.is_planar, "lower": lower.tolist(), "extent": extent,
             "parts": {name: {"triangles": base64_of(np.searchsorted(nodes, part.triangles), "<u4"),
                              "cells": base64_of(np.searchsorted(cells, part.cells), "<u4"),
@@ -118,10 +167,10 @@ def mesh_view(results, mesh):
             "states": states}
 
 
-def state_of(grid, nodes, cells, lower, extent):
-    """A mesh's places of the nodes that are drawn, the drawn cells' numbers, and its worst cells."""
+def state_of(grid, points, cells, lower, extent):
+    """A mesh's points that are drawn, the drawn cells' numbers, and its worst cells."""
     metrics = metrics_of(grid)
-    places = np.clip((grid.points[nodes] - lower) / extent, 0.0, 1.0)
+    places = np.clip((points - lower) / extent, 0.0, 1.0)
     centres = cell_centres(grid)
     worst = {name: [{"cell": int(c), "value": float(values[c]), "at": centres[c].tolist()}
                     for c in np.argsort(values, kind="stable")[:N_WORST]] for name, values in metrics.items()}

@@ -6,10 +6,11 @@ import os
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Optional
 
 import numpy as np
 
-from .cell_types import CELL_DIMENSIONS, PLANAR_CELL_TYPES, VOLUME_CELL_TYPES
+from .cell_types import CELL_DIMENSIONS, PLANAR_CELL_TYPES, SECOND_ORDER, VOLUME_CELL_TYPES
 from .rows import ResultsError
 
 
@@ -18,8 +19,19 @@ class NoVtk(Exception):
 
 
 @dataclass(frozen=True)
+class CurvedCells:
+    """All nodes of the cells of a grid, corners first, in VTK's order, in the CSR form of UnstructuredGrid."""
+
+    connectivity: np.ndarray
+    offsets: np.ndarray
+    types: np.ndarray  # VTK's numbers, also of second order
+
+
+@dataclass(frozen=True)
 class UnstructuredGrid:
-    """Points (n, 3); cells in CSR form: cell c has nodes connectivity[offsets[c]:offsets[c + 1]]."""
+    """Points (n, 3); cells in CSR form: cell c has nodes connectivity[offsets[c]:offsets[c + 1]]. Those of second order
+    have their corners and the type of these; the points have all nodes. Prisms of second order begin with the other
+    triangle than VTK's linear ones."""
 
     points: np.ndarray
     connectivity: np.ndarray
@@ -27,6 +39,7 @@ class UnstructuredGrid:
     types: np.ndarray  # (n_cells,), VTK's numbers
     point_data: dict  # name -> array (n,) or (n, components)
     cell_data: dict  # name -> array (n_cells,) or (n_cells, components)
+    curved: Optional[CurvedCells] = None  # if there are cells of second order
 
     @property
     def is_planar(self):
@@ -94,7 +107,7 @@ def silent_vtk():
 
 
 def adapted(grid):
-    """A grid of VTK as arrays; None if it has no cells, or cells of nodes that are not there."""
+    """A grid of VTK as arrays; None if it has no cells, or cells with nodes that are not there or too few."""
     to_numpy = vtk_module("util.numpy_support").vtk_to_numpy
     if grid.GetNumberOfCells() == 0 or grid.GetNumberOfPoints() == 0:
         return None
@@ -108,14 +121,31 @@ def adapted(grid):
         """Name -> numbers; arrays of texts are of no use here."""
         found = [attributes.GetArray(i) for i in range(attributes.GetNumberOfArrays())]
         return {array.GetName(): to_numpy(array) for array in found if array is not None}
-    return of_highest_dimension(UnstructuredGrid(
-        points=to_numpy(grid.GetPoints().GetData()), connectivity=connectivity, offsets=offsets,
-        types=to_numpy(grid.GetCellTypesArray()), point_data=arrays(grid.GetPointData()),
-        cell_data=arrays(grid.GetCellData())))
+    types = to_numpy(grid.GetCellTypesArray())
+    if any((np.diff(offsets)[types == kind] != n_nodes).any() for kind, (_, _, n_nodes) in SECOND_ORDER.items()):
+        return None
+    return with_corners(of_highest_dimension(UnstructuredGrid(
+        points=to_numpy(grid.GetPoints().GetData()), connectivity=connectivity, offsets=offsets, types=types,
+        point_data=arrays(grid.GetPointData()), cell_data=arrays(grid.GetCellData()))))
+
+
+def with_corners(grid):
+    """A grid whose cells have all their nodes, as one of corners that knows all nodes of curved cells."""
+    if not np.isin(grid.types, list(SECOND_ORDER)).any():
+        return grid
+    sizes, types = np.diff(grid.offsets), grid.types.copy()
+    n_corners = sizes.copy()
+    for kind, (of_corners, n, _) in SECOND_ORDER.items():
+        n_corners[grid.types == kind], types[grid.types == kind] = n, of_corners
+    places = np.arange(len(grid.connectivity)) - np.repeat(grid.offsets[:-1], sizes)
+    return replace(grid, connectivity=grid.connectivity[places < np.repeat(n_corners, sizes)],
+                   offsets=np.concatenate(([0], np.cumsum(n_corners))), types=types,
+                   curved=CurvedCells(grid.connectivity, grid.offsets, grid.types))
 
 
 def vtk_grid(grid, chosen=None):
-    """The inverse: VTK's own grid of all points, and all cells or those of a mask; without data."""
+    """The inverse: VTK's own grid of all points, and all cells or those of a mask; without data, and without midside nodes
+    of cells."""
     model, to_vtk = vtk_module("vtkCommonDataModel"), vtk_module("util.numpy_support")
     kept = np.ones(len(grid.types), dtype=bool) if chosen is None else chosen
     sizes = np.diff(grid.offsets)

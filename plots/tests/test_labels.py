@@ -74,8 +74,8 @@ class Labels(InFolder):
         self.assertGreater(grid.cell_data["mean_ratio"].min(), 0.5)
 
     def test_cells_of_other_kinds_are_no_labels(self):
-        quadratic_triangle = (22, [0, 1, 4, 3, 2, 5])
-        grid = self.read(POINTS, [(QUADRILATERAL, SQUARES[0]), quadratic_triangle])
+        lagrange_triangle = (69, [0, 1, 4, 3, 2, 5])
+        grid = self.read(POINTS, [(QUADRILATERAL, SQUARES[0]), lagrange_triangle])
         self.assertFalse(grid.is_planar or grid.is_surface or grid.is_volume)
 
     def test_they_are_drawn(self):
