@@ -16,6 +16,10 @@ template <int dim>
 SmoothingResult smooth_by_rules(Mesh<dim>& mesh, Method<dim>& method, const MeshRules& rules,
                                 const std::type_identity_t<Observer<dim>>& observer) {
   if (!moves_partners(mesh.topology(), rules)) return smooth(mesh, method, observer);
+  if (mesh.topology().midside() && moves_midside_nodes(method))
+    throw InputError("method " + method.info.name +
+                     " moves midside nodes, which cannot move together with periodic partners; "
+                     "leave these fixed, or use a method that moves corners");
   if (mesh.topology().midside())
     return smooth_second_order(mesh, CornerNumbers::of_mesh, method.floor != 0, observer,
                                [&](Mesh<dim>& corners, const Observer<dim>& of_corners) {

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <set>
 
 #include "smoothing/base/parallel.h"
-#include "smoothing/mesh/interfaces.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/second_order/curved_quality.h"
+#include "smoothing/second_order/nodes_on_facets.h"
 #include "smoothing/second_order/transfinite.h"
 
 namespace smoothfem {
@@ -18,26 +17,6 @@ namespace smoothfem {
 namespace {
 
 constexpr std::size_t grain = 1024;
-
-/// Returns the places of the midside nodes of these facets, and of their edges.
-template <int dim>
-std::set<MidsidePlace> places_of_facets(const CompressedRows<NodeIndex>& facets) {
-  std::set<MidsidePlace> places;
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    const auto nodes = facets[f];
-    std::vector<NodeIndex> sorted(nodes.begin(), nodes.end());
-    std::sort(sorted.begin(), sorted.end());
-    MidsidePlace whole{no_corner, no_corner, no_corner, no_corner};
-    std::copy(sorted.begin(), sorted.end(), whole.begin());
-    places.insert(whole);
-    if (dim == 3)
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const auto [low, high] = std::minmax(nodes[k], nodes[(k + 1) % nodes.size()]);
-        places.insert({low, high, no_corner, no_corner});
-      }
-  }
-  return places;
-}
 
 /// Turns and scales a vector as an edge: from `before` to `after`.
 template <int dim>
@@ -279,7 +258,7 @@ MidsideReport MidsidePlacement<dim>::repair(Mesh<dim>& mesh, std::vector<double>
     std::erase_if(bad, [&](CellIndex c) { return !(of_corners[c] > 0.0); });
   }
   report.n_repaired -= bad.size();
-  const auto on_boundary = nodes_on_facets();
+  const auto on_boundary = midside_nodes_on_facets(*topology_);
   for_each_node([&](const auto& node) {
     const bool is_relaxed = eighths[node.node] < whole;
     report.n_relaxed += is_relaxed;
@@ -288,19 +267,6 @@ MidsideReport MidsidePlacement<dim>::repair(Mesh<dim>& mesh, std::vector<double>
   initial_.assign(x.begin(), x.end());
   find_bent_nodes();
   return report;
-}
-
-template <int dim>
-std::vector<bool> MidsidePlacement<dim>::nodes_on_facets() const {
-  auto places = places_of_facets<dim>(topology_->boundary_facets());
-  places.merge(places_of_facets<dim>(inner_interfaces(*topology_).facets));
-  std::vector<bool> flags(initial_.size(), false);
-  for (CellIndex c = 0; c < topology_->n_cells(); ++c)
-    for_each_midside_place(dim, topology_->cell_nodes(c), topology_->midside_nodes(c),
-                           [&](const MidsidePlace& place, NodeIndex node) {
-                             flags[node] = flags[node] || places.contains(place);
-                           });
-  return flags;
 }
 
 template class MidsidePlacement<2>;
