@@ -5,8 +5,8 @@
 METHOD: Laplace2D, Relocate2D, Relocate3D, HighOrderElastic, HighOrder or `default`. `default` is Gmsh's optimizer of
 tetrahedra. It swaps and collapses edges; smoothfem refuses meshes with changed cells. The two of high order move midside
 nodes: they need `second_order = true`, and linear cells stay as they are. HighOrderElastic keeps boundary nodes.
-HighOrder of Gmsh 4.8 moves those next to invalid cells, as the mesh has no geometry; smoothfem refuses such meshes. Needs
-python3-gmsh."""
+HighOrder of Gmsh 4.8 moves those near cells with a scaled Jacobian below 0.1, as the mesh has no geometry; smoothfem
+refuses such meshes. Needs python3-gmsh."""
 
 import sys
 import time

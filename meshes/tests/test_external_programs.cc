@@ -319,7 +319,7 @@ TEST_F(ExternalProgram, RefusesOtherMidsideNodesAndLinearCells) {
                             2, given.n_nodes(), given.topology().cells(), std::nullopt, labels),
                         points));
   EXPECT_THAT(refusal(file("swapped.msh"), given), HasSubstr("other midside nodes in its cells"));
-  // All nodes are kept in a .vtk file, also those that no cell uses.
+  // A .vtk file keeps nodes without cells, too.
   write_mesh(file("linear.vtk"), with_linear_cells(given));
   EXPECT_THAT(refusal(file("linear.vtk"), given),
               HasSubstr("linear cells in place of cells of second order"));
