@@ -4,9 +4,9 @@
 
 METHOD: Laplace2D, Relocate2D, Relocate3D, HighOrderElastic, HighOrder or `default`. `default` is Gmsh's optimizer of
 tetrahedra. It swaps and collapses edges; smoothfem refuses meshes with changed cells. The two of high order move midside
-nodes: they need `second_order = true`, and linear cells stay as they are. HighOrderElastic keeps boundary nodes.
-HighOrder of Gmsh 4.8 moves those near cells with a scaled Jacobian below 0.1, as the mesh has no geometry; smoothfem
-refuses such meshes. Needs python3-gmsh."""
+nodes, so that they need `second_order = true`. HighOrderElastic keeps boundary nodes and moves all others, corners, too.
+HighOrder of Gmsh 4.8 moves boundary nodes near cells with a scaled Jacobian below 0.1, as the mesh has no geometry;
+smoothfem refuses such meshes. Needs python3-gmsh."""
 
 import sys
 import time
