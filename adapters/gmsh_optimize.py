@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """gmsh_optimize.py IN OUT METHOD ITERATIONS: Gmsh's smoothers and optimizers on a .msh file.
 
-METHOD: Laplace2D, Relocate2D, Relocate3D or `default`. `default` is Gmsh's optimizer of tetrahedra. It swaps and
-collapses edges; smoothfem refuses meshes with changed cells. Needs python3-gmsh."""
+METHOD: Laplace2D, Relocate2D, Relocate3D, HighOrderElastic, HighOrder or `default`. `default` is Gmsh's optimizer of
+tetrahedra. It swaps and collapses edges; smoothfem refuses meshes with changed cells. The two of high order move midside
+nodes, so that they need `second_order = true`. HighOrderElastic keeps boundary nodes and moves all others, corners, too.
+HighOrder of Gmsh 4.8 moves boundary nodes near cells with a scaled Jacobian below 0.1, as the mesh has no geometry;
+smoothfem refuses such meshes. Needs python3-gmsh."""
 
 import sys
 import time
@@ -19,7 +22,7 @@ def main(source, target, method, n_iterations):
     gmsh.option.setNumber("Mesh.SaveAll", 1)
     gmsh.open(source)
     gmsh.model.mesh.createTopology()  # without curves and surfaces, Gmsh treats boundary nodes as inner ones
-    if gmsh.model.getDimension() == 2:
+    if gmsh.model.getDimension() == 2 and not method.startswith("HighOrder"):
         gmsh.model.mesh.createGeometry()  # surface nodes move in the parameter plane of their surface
     start = time.perf_counter()
     if int(n_iterations) > 0:

@@ -103,6 +103,25 @@ class Debian(Study):
         self.check(summary, rows, "sfepy", ["0", "1", "2"])
         self.assertRegex(summary["swaps"]["status"], r"^not solved$|^failed: its mesh has ")
 
+    def test_gmsh_moves_midside_nodes(self):
+        """Four TRI6 around the middle of a square; its lower side bulges into the first one. Only with `second_order` does Gmsh
+        get midside nodes. It moves all nodes inside and keeps the boundary."""
+        points = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 1), (1, .35), (2, 1), (1, 2), (0, 1), (.5, .5), (1.5, .5), (1.5, 1.5),
+                  (.5, 1.5)]
+        cells = [(0, 1, 4, 5, 10, 9), (1, 2, 4, 6, 11, 10), (2, 3, 4, 7, 12, 11), (3, 0, 4, 8, 9, 12)]
+        lines = ["# vtk DataFile Version 3.0", "square", "ASCII", "DATASET UNSTRUCTURED_GRID", "POINTS 13 double",
+                 *(f"{x} {y} 0" for x, y in points), "CELLS 4 28", *("6 " + " ".join(map(str, cell)) for cell in cells),
+                 "CELL_TYPES 4", *["22"] * len(cells)]
+        (self.folder / "square.vtk").write_text("\n".join(lines) + "\n")
+        command = f"command={SOURCE}/adapters/gmsh_optimize.py {{in}} {{out}} HighOrderElastic 1"
+        run(SMOOTHFEM, "smooth", "square.vtk", "-m", "command", "--set", command, "--set", "format=msh", "--set",
+            "second_order=true", "--allow-worse", "-o", "out.inp", folder=self.folder)
+        text = (self.folder / "out.inp").read_text().upper()
+        rows = [line.split(",") for line in text.split("*NODE", 1)[1].split("*ELEMENT")[0].splitlines() if line[:1].isdigit()]
+        moved = [math.dist(point, map(float, row[1:3])) for point, row in zip(points, rows, strict=True)]
+        self.assertEqual(moved[:4] + moved[5:9], [0] * 8)
+        self.assertGreater(min(moved[4:5] + moved[9:]), 1e-3)
+
     def test_netgen(self):
         """Compiles the driver as its first lines describe."""
         text = (SOURCE / "adapters" / "netgen_driver.cc").read_text(encoding="utf-8")

@@ -26,7 +26,7 @@ std::string extension(const std::string& format) {
 struct CommandParameters {
   ExternalProgram program;
   std::string format = "vtk", out_format, series, time_pattern, startup_command;
-  int max_iterations = 64, every = 0, repeat = 1;
+  int max_iterations = 64, every = 0, repeat = 1, second_order = 0;
   double time_unit = 1.0;
 
   Parameters list() {
@@ -42,6 +42,10 @@ struct CommandParameters {
          "the edges or faces of the boundary, also for planar meshes",
          &format},
         {"out_format", "format of {out}; empty: that of {in}", &out_format},
+        {"second_order",
+         "true: the program gets and moves the midside nodes of meshes of second order, too; the "
+         "format must hold them (not vtk). false: it gets the corners, and midside nodes follow",
+         Choice{&second_order, {"false", "true"}}},
         {"files", "files to copy next to {in}, separated by commas", &program.files},
         {"max_iterations", "largest value of {iterations}, used in the last run", &max_iterations,
          1.0, 1e6},
@@ -86,6 +90,10 @@ struct CommandParameters {
                        needs);
     for (const auto& given : {format, file_out_format()})
       require_mesh_path("mesh." + extension(given));
+    if (second_order != 0 && format == "vtk")
+      throw InputError(
+          "second_order = true needs a format with cells of second order for {in}: 'vtk' has "
+          "linear cells only; write 'set format = msh' or 'set format = vtu'");
     const bool counts = counts_iterations();
     if (!series.empty() && !has_placeholder(series, "iteration"))
       throw InputError("the series '" + series +
@@ -115,7 +123,8 @@ class CommandSmoother final : public Smoother<dim> {
     return {.quality_use = QualityUse::none,
             .result = ResultMesh::last,
             .needs_valid_mesh = false,
-            .needs_node_order = true};  // files have the user's order
+            .needs_node_order = true,  // files have the user's order
+            .moves_midside_nodes = p_.second_order != 0};
   }
 
   StoppingRule stopping() const override {

@@ -7,6 +7,8 @@
 
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/smoother.h"
+#include "smoothing/quality/mesh_quality.h"
+#include "smoothing/second_order/curved_objective.h"
 
 namespace smoothfem {
 
@@ -91,6 +93,45 @@ void require_same_cells(const Topology& given, const Topology& returned, const N
                           " changed): only nodes may move, edges and faces must not be swapped");
 }
 
+/// The place of each midside node, and the node.
+using PlacedNodes = std::vector<std::pair<MidsidePlace, NodeIndex>>;
+
+template <class Number>
+PlacedNodes sorted_midside_nodes(const Topology& topology, const Number& number) {
+  PlacedNodes placed;
+  std::vector<NodeIndex> corners, midside;
+  const auto set_numbers = [&](std::span<const NodeIndex> nodes, std::vector<NodeIndex>& numbers) {
+    numbers.clear();
+    for (const NodeIndex i : nodes) numbers.push_back(number(i));
+  };
+  for (CellIndex c = 0; c < topology.n_cells(); ++c) {
+    set_numbers(topology.cell_nodes(c), corners);
+    set_numbers(topology.midside_nodes(c), midside);
+    for_each_midside_place(
+        topology.dimension(), corners, midside,
+        [&](const MidsidePlace& place, NodeIndex node) { placed.emplace_back(place, node); });
+  }
+  std::sort(placed.begin(), placed.end());
+  placed.erase(std::unique(placed.begin(), placed.end()), placed.end());
+  return placed;
+}
+
+void require_same_midside_nodes(const Topology& given, const Topology& returned,
+                                const NodeMap& map) {
+  if (sorted_midside_nodes(given, [](NodeIndex i) { return i; }) !=
+      sorted_midside_nodes(returned, [&](NodeIndex i) { return map[i]; }))
+    throw SmootherFailure(returned.midside()
+                              ? "its mesh has other midside nodes in its cells: only nodes may move"
+                              : "its mesh has linear cells in place of cells of second order");
+}
+
+/// Returns flags of the nodes that must stay.
+std::vector<bool> fixed_nodes(const Topology& topology) {
+  std::vector<bool> is_fixed(topology.n_nodes(), true);
+  for (const NodeIndex i : free_nodes_of_second_order(topology)) is_fixed[i] = false;
+  return is_fixed;
+}
+
 /// Text files may have no more than six digits.
 template <int dim>
 void keep_fixed_nodes(const Mesh<dim>& mesh, std::vector<Point<dim>>& points) {
@@ -99,8 +140,9 @@ void keep_fixed_nodes(const Mesh<dim>& mesh, std::vector<Point<dim>>& points) {
   for (const auto& p : mesh.coordinates()) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   std::size_t n_moved = 0;
   double farthest = 0.0;
+  const auto is_fixed = fixed_nodes(mesh.topology());
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
-    if (!mesh.topology().is_fixed(i)) continue;
+    if (!is_fixed[i]) continue;
     const double moved = (points[i] - mesh.coordinates()[i]).norm();
     farthest = std::max(farthest, moved);
     if (moved > digits * largest) ++n_moved;
@@ -110,6 +152,19 @@ void keep_fixed_nodes(const Mesh<dim>& mesh, std::vector<Point<dim>>& points) {
     throw SmootherFailure("it has moved " + count_text(n_moved, "fixed node") + ", by up to " +
                           std::to_string(farthest) +
                           ": fixed nodes, for example those of the boundary, must stay");
+}
+
+/// A linear mesh may have invalid cells, which its record counts. Curved cells must have a proof.
+template <int dim>
+void require_proven_cells(const Mesh<dim>& mesh, const std::vector<Point<dim>>& points) {
+  if (!mesh.topology().midside()) return;
+  Mesh<dim> moved = mesh;
+  moved.set_coordinates(points);
+  const std::size_t n_invalid = mesh_quality(moved).n_invalid;
+  if (n_invalid > 0)
+    throw SmootherFailure("its mesh has " + count_text(n_invalid, "curved cell") + " of " +
+                          std::to_string(mesh.n_cells()) +
+                          " without a proof that det J is positive: cells must stay valid");
 }
 
 MeshFile read_returned(const std::filesystem::path& file) {
@@ -135,9 +190,11 @@ std::vector<Point<dim>> returned_coordinates(const std::filesystem::path& file,
                           " mesh, but was given as a " + mesh_kind_name(dim, dim) + " mesh");
   const NodeMap map = matching_nodes(mesh.topology(), returned->topology());
   require_same_cells(mesh.topology(), returned->topology(), map);
+  require_same_midside_nodes(mesh.topology(), returned->topology(), map);
   std::vector<Point<dim>> points(mesh.n_nodes());
   for (NodeIndex i = 0; i < map.size(); ++i) points[map[i]] = returned->coordinates()[i];
   keep_fixed_nodes(mesh, points);
+  require_proven_cells(mesh, points);
   return points;
 }
 

@@ -14,6 +14,7 @@
 #include "meshes/tests/labelled_box.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/loop/smoother.h"
+#include "smoothing/second_order/raise_order.h"
 
 namespace smoothfem {
 namespace {
@@ -266,6 +267,62 @@ TEST_F(ExternalProgram, RefusesOtherNodes) {
                                               2, points.size(), given.topology().cells()),
                                           points));
   EXPECT_THAT(refusal(file("out.mesh"), given), HasSubstr("nodes in place of"));
+}
+
+/// Four triangles TRI6 around the middle (1, 1) of a square.
+PlanarMesh square_of_second_order() {
+  CompressedRows<NodeIndex> cells;
+  for (NodeIndex k = 0; k < 4; ++k) cells.append(std::array<NodeIndex, 3>{k, (k + 1) % 4, 4});
+  return with_midside_nodes(
+      PlanarMesh(std::make_shared<const Topology>(2, 5, cells),
+                 std::vector<Point<2>>{{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}}));
+}
+
+TEST_F(ExternalProgram, MidsideNodesInsideMayMoveAsLongAsCellsAreProvenValid) {
+  const PlanarMesh given = square_of_second_order();
+  const NodeIndex on_boundary = given.topology().midside_nodes(0)[0],
+                  inside = given.topology().midside_nodes(0)[1];
+  const auto returned = [&](NodeIndex node, const Point<2>& shift) {
+    PlanarMesh moved = given;
+    moved.coordinates()[node] += shift;
+    write_mesh(file("out.msh"), moved);
+    return moved.copied_coordinates();
+  };
+  const auto points = returned(inside, {0.05, 0.1});
+  EXPECT_EQ(returned_coordinates<2>(file("out.msh"), given), points);
+  returned(inside, {0.9, 0.0});
+  EXPECT_THAT(refusal(file("out.msh"), given),
+              HasSubstr("1 curved cell of 4 without a proof that det J is positive"));
+  returned(on_boundary, {0.0, 0.1});
+  EXPECT_THAT(refusal(file("out.msh"), given), HasSubstr("it has moved 1 fixed node"));
+}
+
+TEST_F(ExternalProgram, RefusesOtherMidsideNodesAndLinearCells) {
+  const PlanarMesh given = square_of_second_order();
+  MeshLabels labels = given.topology().labels();
+  auto midside = std::make_shared<MidsideNodes>(*labels.midside);
+  midside->of_cells = {};
+  for (CellIndex c = 0; c < 4; ++c) {  // nodes of two edges inside change places
+    const auto old = given.topology().midside_nodes(c);
+    std::vector<NodeIndex> row(old.begin(), old.end());
+    const NodeIndex a = given.topology().midside_nodes(0)[1],
+                    b = given.topology().midside_nodes(0)[2];
+    for (NodeIndex& node : row) node = node == a ? b : node == b ? a : node;
+    midside->of_cells.append(row);
+  }
+  labels.midside = midside;
+  auto points = given.copied_coordinates();
+  std::swap(points[given.topology().midside_nodes(0)[1]],
+            points[given.topology().midside_nodes(0)[2]]);
+  write_mesh(file("swapped.msh"),
+             PlanarMesh(std::make_shared<const Topology>(
+                            2, given.n_nodes(), given.topology().cells(), std::nullopt, labels),
+                        points));
+  EXPECT_THAT(refusal(file("swapped.msh"), given), HasSubstr("other midside nodes in its cells"));
+  // A .vtk file keeps nodes without cells, too.
+  write_mesh(file("linear.vtk"), with_linear_cells(given));
+  EXPECT_THAT(refusal(file("linear.vtk"), given),
+              HasSubstr("linear cells in place of cells of second order"));
 }
 
 TEST_F(ExternalProgram, RefusesNonsenseWithoutNamingTheTemporaryFolder) {

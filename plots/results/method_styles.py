@@ -38,6 +38,7 @@ KNOWN_METHODS = {
     "getme-sequential": MethodStyle("#000000", "X", (2.5, 2.5)),
     "getme-adaptive": MethodStyle("#8B4513", "<", (8, 1.5, 2, 1.5)),
     "getme-qgamma": MethodStyle("#7A3E9D", ">", (3, 1.2, 1.2, 1.2)),
+    "curved-optimization": MethodStyle("#000055", "h", (10, 1.5, 3, 1.5)),
 }
 
 # Of all other methods. No known method has these colours. They are far from those and from each other, as seen with normal

@@ -70,6 +70,17 @@ bool takes_targets(const Method<dim, spacedim>& method) {
                      [](const auto& stage) { return stage->traits().takes_targets; });
 }
 
+template <int dim, int spacedim>
+bool moves_midside_nodes(const Method<dim, spacedim>& method) {
+  const auto moves = [](const auto& stage) { return stage->traits().moves_midside_nodes; };
+  const bool any = std::any_of(method.stages.begin(), method.stages.end(), moves);
+  if (any && !std::all_of(method.stages.begin(), method.stages.end(), moves))
+    throw InputError("method " + method.info.name +
+                     " has stages that move midside nodes and stages that move corners only; run "
+                     "these as separate methods on meshes of second order");
+  return any;
+}
+
 template <int dim>
 std::vector<std::string> methods_with_targets() {
   std::vector<std::string> names;
@@ -148,6 +159,7 @@ template std::vector<std::string> methods_with_targets<3>();
 #define SMOOTHFEM_INSTANTIATE(...)                                         \
   template bool takes_targets(const Method<__VA_ARGS__>&);                 \
   template bool keeps_constraints(const Method<__VA_ARGS__>&);             \
+  template bool moves_midside_nodes(const Method<__VA_ARGS__>&);           \
   template bool supports_mesh_kind<__VA_ARGS__>(const std::string&, bool); \
   template std::vector<std::string> methods_supporting<__VA_ARGS__>(bool); \
   template Stages<__VA_ARGS__> stages_of(const std::string&);              \

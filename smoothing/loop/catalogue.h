@@ -105,6 +105,11 @@ bool keeps_constraints(const Method<dim, spacedim>& method);
 template <int dim, int spacedim>
 bool takes_targets(const Method<dim, spacedim>& method);
 
+/// True if every stage moves midside nodes by itself (SmootherTraits). Throws InputError if some
+/// stages do and others move corners only.
+template <int dim, int spacedim>
+bool moves_midside_nodes(const Method<dim, spacedim>& method);
+
 /// Returns the names of the methods that take targets, in the order of the catalogue.
 template <int dim>
 std::vector<std::string> methods_with_targets();

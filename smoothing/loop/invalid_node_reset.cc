@@ -3,6 +3,7 @@
 
 #include "smoothing/mesh/node_constraints.h"
 #include "smoothing/quality/mean_ratio.h"
+#include "smoothing/second_order/curved_quality.h"
 
 namespace smoothfem {
 
@@ -31,9 +32,33 @@ std::vector<NodeIndex> reset_nodes(Mesh<dim, spacedim>& mesh,
         moved.push_back(i);
       }
   };
-  for (const CellIndex c : cells) reset(mesh.topology().cell_nodes(c));
+  for (const CellIndex c : cells) {
+    reset(mesh.topology().cell_nodes(c));
+    reset(mesh.topology().midside_nodes(c));
+  }
   for (const std::uint32_t f : facets) reset(mesh.constraints()->facet_nodes(f));
   return moved;
+}
+
+/// Returns the cells with nodes that reset_nodes() has moved. cells: those it got. A midside node
+/// belongs to cells that share corners.
+template <int dim, int spacedim>
+std::vector<CellIndex> cells_to_check(const Mesh<dim, spacedim>& mesh,
+                                      const std::vector<CellIndex>& cells,
+                                      const std::vector<NodeIndex>& moved) {
+  if (!mesh.topology().midside()) return mesh.topology().cells_around(moved);
+  std::vector<NodeIndex> corners = moved;
+  for (const CellIndex c : cells)
+    for (const NodeIndex i : mesh.topology().cell_nodes(c)) corners.push_back(i);
+  return mesh.topology().cells_around(corners);
+}
+
+/// Returns the quality of a linear or curved cell.
+template <int dim, int spacedim>
+double quality_of(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
+  if constexpr (dim == spacedim)
+    if (!mesh.topology().midside_nodes(cell).empty()) return curved_mean_ratio(mesh, cell);
+  return cell_mean_ratio(mesh, cell);
 }
 
 }  // namespace
@@ -52,9 +77,10 @@ std::vector<NodeIndex> reset_nodes_of_invalid_cells(
     const auto moved = reset_nodes(mesh, previous, bad, facets);
     if (moved.empty()) return all_moved;  // the remaining cells were invalid before
     all_moved.insert(all_moved.end(), moved.begin(), moved.end());
+    const auto changed = cells_to_check(mesh, bad, moved);
     bad.clear();
-    for (const CellIndex c : mesh.topology().cells_around(moved)) {
-      cell_quality[c] = cell_mean_ratio(mesh, c);
+    for (const CellIndex c : changed) {
+      cell_quality[c] = quality_of(mesh, c);
       if (is_bad(cell_quality[c])) bad.push_back(c);
     }
     facets = facets_out_of_bound(mesh, moved);

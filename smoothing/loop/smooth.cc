@@ -167,13 +167,14 @@ class SmoothingRun {
   /// Reorders large meshes. Small meshes fit the cache in any order, and without reordering keep
   /// the published numbers' order of sums. Constraints refer to node numbers, and problems refer to
   /// boundary parts by labels, and targets refer to cell numbers; such meshes are not reordered.
+  /// Neither are meshes of second order, whose midside nodes a new order leaves out.
   void reorder(const Method<dim, spacedim>& method) {
     constexpr std::size_t min_nodes = 16384;
     // Sweeps in the mesh's own order also need nodes stored in that order. With the nodes of a
     // neighbourhood stored together they took twice the time (Laplace, 580,000 tetrahedra as Gmsh
     // numbers them).
     if (state_.mesh.constraints() || state_.mesh.targets() || solver_ ||
-        state_.mesh.n_nodes() < min_nodes ||
+        state_.mesh.topology().midside() || state_.mesh.n_nodes() < min_nodes ||
         any_stage(method, [](const auto& stage) { return stage.traits().needs_node_order; }))
       return;
     if constexpr (dim == spacedim) {
@@ -312,42 +313,10 @@ class ScaledMesh {
   int exponent_;
 };
 
-}  // namespace
-
-namespace {
-
+/// Smooths a mesh whose midside nodes, if it has some, are nodes like others.
 template <int dim, int spacedim>
-SmoothingResult smooth_corners_first(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
-                                     const Observer<dim, spacedim>& observer) {
-  if constexpr (spacedim > dim)
-    throw InputError(
-        "surface meshes of second order cannot be smoothed; save the mesh with linear cells");
-  else if (method.info.needs_problem())
-    throw InputError("method " + method.info.name +
-                     " solves a problem on linear cells; it does not support meshes of second "
-                     "order");
-  else
-    return smooth_second_order(mesh, CornerNumbers::dense, method.floor != 0, observer,
-                               [&](Mesh<dim>& corners, const Observer<dim>& of_corners) {
-                                 return smooth(corners, method, of_corners);
-                               });
-}
-
-}  // namespace
-
-std::string SmoothingResult::iterations_text() const {
-  std::string text;
-  for (const auto& stage : stages) {
-    if (!text.empty()) text += '/';
-    text += std::to_string(stage.iterations);
-  }
-  return text;
-}
-
-template <int dim, int spacedim>
-SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
-                       const std::type_identity_t<Observer<dim, spacedim>>& observer) {
-  if (mesh.topology().midside()) return smooth_corners_first(mesh, method, observer);
+SmoothingResult smooth_nodes(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                             const Observer<dim, spacedim>& observer) {
   require_constraints_kept(mesh, method);
   require_targets_taken(mesh, method);
   require_problem(method);
@@ -366,6 +335,49 @@ SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
       observer(record, unscaled);
     };
   return smooth_unscaled(mesh, method, rescaling_observer);
+}
+
+template <int dim, int spacedim>
+SmoothingResult smooth_of_second_order(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                                       const Observer<dim, spacedim>& observer) {
+  if constexpr (spacedim > dim) {
+    throw InputError(
+        "surface meshes of second order cannot be smoothed; save the mesh with linear cells");
+  } else {
+    if (method.info.needs_problem())
+      throw InputError("method " + method.info.name +
+                       " solves a problem on linear cells; it does not support meshes of second "
+                       "order");
+    if (moves_midside_nodes(method)) {
+      const bool needs_valid =
+          any_stage(method, [](const auto& stage) { return stage.traits().needs_valid_mesh; });
+      return smooth_with_midside_nodes(mesh, needs_valid, [&](Mesh<dim>& whole) {
+        return smooth_nodes(whole, method, observer);
+      });
+    }
+    return smooth_second_order(mesh, CornerNumbers::dense, method.floor != 0, observer,
+                               [&](Mesh<dim>& corners, const Observer<dim>& of_corners) {
+                                 return smooth(corners, method, of_corners);
+                               });
+  }
+}
+
+}  // namespace
+
+std::string SmoothingResult::iterations_text() const {
+  std::string text;
+  for (const auto& stage : stages) {
+    if (!text.empty()) text += '/';
+    text += std::to_string(stage.iterations);
+  }
+  return text;
+}
+
+template <int dim, int spacedim>
+SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                       const std::type_identity_t<Observer<dim, spacedim>>& observer) {
+  return mesh.topology().midside() ? smooth_of_second_order(mesh, method, observer)
+                                   : smooth_nodes(mesh, method, observer);
 }
 
 template SmoothingResult smooth(Mesh<2>&, Method<2>&, const Observer<2>&);

@@ -75,8 +75,8 @@ struct SmoothingResult {
 /// locality; the caller and the observer see the original order. Results are bitwise identical for
 /// every number of threads.
 ///
-/// In meshes of second order the method moves the corners, and midside nodes follow
-/// (smooth_second_order.h).
+/// In meshes of second order the method moves the corners, and midside nodes follow, or it moves
+/// all nodes (SmootherTraits::moves_midside_nodes, smooth_second_order.h).
 ///
 /// Throws InputError if the method needs a valid mesh and `mesh` is invalid. Throws it also if the
 /// method cannot keep the constraints of the mesh, or if it needs a problem and has none. After any

@@ -61,6 +61,9 @@ struct SmootherTraits {
   /// True if the step moves cells towards the targets of the mesh
   /// (smoothing/quality/cell_targets.h). Other methods do not support meshes with targets.
   bool takes_targets = false;
+  /// True if the step moves the midside nodes of meshes of second order by itself: it gets the
+  /// whole mesh. For other methods these nodes follow the corners.
+  bool moves_midside_nodes = false;
 };
 
 /// Report of one step to the loop.

@@ -73,6 +73,8 @@ class CellDerivatives;
 template <class Real, std::size_t extent>
 class CellDerivatives<2, Real, extent> {
  public:
+  using NodeBlocks = CellArray<Block<2, Real>, extent>;  ///< one block for each node
+
   CellArray<Vector2<Real>, extent> gradient;
   CellArray<Block<2, Real>, n_node_pairs(extent)> hessian;
 

@@ -20,6 +20,8 @@ namespace smoothfem {
 template <class Real, std::size_t n>
 class CellDerivatives<3, Real, n> {
  public:
+  using NodeBlocks = CellArray<Block<3, Real>, n>;  ///< one block for each node
+
   std::array<Vector3<Real>, n> gradient{};
   std::array<Block<3, Real>, n_node_pairs(n)> hessian{};
 

@@ -20,6 +20,10 @@ SmoothingResult smooth_by_rules(Mesh<dim>& mesh, Method<dim>& method, const Mesh
     throw InputError(
         "periodic partners cannot slide in meshes of second order; leave the boundary and the "
         "interfaces fixed, or save the mesh with linear cells");
+  if (mesh.topology().midside() && moves_midside_nodes(method))
+    throw InputError("method " + method.info.name +
+                     " moves midside nodes, which cannot move together with periodic partners; "
+                     "leave these fixed, or use a method that moves corners");
   if (mesh.topology().midside())
     return smooth_second_order(mesh, CornerNumbers::of_mesh, method.floor != 0, observer,
                                [&](Mesh<dim>& corners, const Observer<dim>& of_corners) {

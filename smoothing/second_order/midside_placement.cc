@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "smoothing/base/parallel.h"
-#include "smoothing/mesh/interfaces.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/second_order/curved_quality.h"
+#include "smoothing/second_order/nodes_on_facets.h"
 #include "smoothing/second_order/transfinite.h"
 
 namespace smoothfem {
@@ -288,7 +288,7 @@ MidsideReport MidsidePlacement<dim>::repair(Mesh<dim>& mesh, std::vector<double>
     std::erase_if(bad, [&](CellIndex c) { return !(of_corners[c] > 0.0); });
   }
   report.n_repaired -= bad.size();
-  const auto on_boundary = nodes_on_facets();
+  const auto on_boundary = midside_nodes_on_facets(*topology_);
   for_each_node([&](const auto& node) {
     const bool is_relaxed = eighths[node.node] < whole;
     report.n_relaxed += is_relaxed;
@@ -297,17 +297,6 @@ MidsideReport MidsidePlacement<dim>::repair(Mesh<dim>& mesh, std::vector<double>
   initial_.assign(x.begin(), x.end());
   find_bent_nodes();
   return report;
-}
-
-template <int dim>
-std::vector<bool> MidsidePlacement<dim>::nodes_on_facets() const {
-  std::vector<bool> flags(initial_.size(), false);
-  for (const auto& facets : {topology_->boundary_facets(), inner_interfaces(*topology_).facets}) {
-    const auto nodes =
-        midside_of_facets(dim, topology_->cells(), topology_->midside()->of_cells, facets);
-    for (const NodeIndex node : nodes.entries()) flags[node] = true;
-  }
-  return flags;
 }
 
 template class MidsidePlacement<2>;

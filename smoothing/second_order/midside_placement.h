@@ -104,8 +104,6 @@ class MidsidePlacement {
   /// their straight places.
   std::vector<double> qualities(const Mesh<dim>& mesh,
                                 const std::vector<std::uint8_t>& is_bent) const;
-  /// Returns flags of the nodes on the boundary and on interfaces.
-  std::vector<bool> nodes_on_facets() const;
   /// Places all nodes. quarters: by node, the part of the initial curvature that it keeps. Returns
   /// flags of the nodes that are not at their straight places.
   std::vector<std::uint8_t> place_all(Mesh<dim>& mesh,

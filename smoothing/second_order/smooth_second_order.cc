@@ -3,11 +3,15 @@
 
 #include <numeric>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "smoothing/base/scoped_timer.h"
+#include "smoothing/quality/mesh_quality.h"
 #include "smoothing/second_order/midside_placement.h"
+#include "smoothing/second_order/raise_order.h"
 
 namespace smoothfem {
 
@@ -58,6 +62,17 @@ class CornerMesh {
   Mesh<dim> mesh_;
 };
 
+/// Throws InputError if cells with these qualities are invalid although all corners are valid.
+template <int dim>
+void require_repaired(const Mesh<dim>& mesh, std::span<const double> quality) {
+  const std::size_t n_invalid = invalid_cells(quality).size();
+  if (n_invalid > 0 && mesh_quality(with_linear_cells(mesh)).n_invalid == 0)
+    throw InputError(std::to_string(n_invalid) +
+                     (n_invalid == 1 ? " curved cell is" : " curved cells are") +
+                     " not proven valid, even with straight edges; move the corners first, for "
+                     "example by method getme");
+}
+
 }  // namespace
 
 template <int dim>
@@ -107,11 +122,37 @@ SmoothingResult smooth_second_order(
   return result;
 }
 
+template <int dim>
+SmoothingResult smooth_with_midside_nodes(
+    Mesh<dim>& mesh, bool needs_valid,
+    const std::type_identity_t<std::function<SmoothingResult(Mesh<dim>&)>>& smooth_nodes) {
+  if (mesh.constraints())
+    throw InputError(
+        "a method that moves midside nodes cannot keep nodes on a surface of second order; leave "
+        "the boundary and the interfaces fixed");
+  double preparation_seconds = 0.0;
+  MidsideReport report;
+  {
+    const ScopedTimer timer(preparation_seconds);
+    std::vector<double> quality;
+    report = MidsidePlacement<dim>(mesh).repair(mesh, quality);
+    if (needs_valid) require_repaired(mesh, quality);
+  }
+  SmoothingResult result = smooth_nodes(mesh);
+  result.preparation_seconds += preparation_seconds;
+  result.midside = report;
+  return result;
+}
+
 template SmoothingResult smooth_second_order(
     Mesh<2>&, CornerNumbers, bool, const Observer<2>&,
     const std::function<SmoothingResult(Mesh<2>&, const Observer<2>&)>&);
 template SmoothingResult smooth_second_order(
     Mesh<3>&, CornerNumbers, bool, const Observer<3>&,
     const std::function<SmoothingResult(Mesh<3>&, const Observer<3>&)>&);
+template SmoothingResult smooth_with_midside_nodes(Mesh<2>&, bool,
+                                                   const std::function<SmoothingResult(Mesh<2>&)>&);
+template SmoothingResult smooth_with_midside_nodes(Mesh<3>&, bool,
+                                                   const std::function<SmoothingResult(Mesh<3>&)>&);
 
 }  // namespace smoothfem

@@ -27,4 +27,13 @@ SmoothingResult smooth_second_order(
     const std::type_identity_t<std::function<SmoothingResult(Mesh<dim>&, const Observer<dim>&)>>&
         smooth_corners);
 
+/// Smooths a mesh of second order by a method that moves its midside nodes, too: smooth_nodes gets
+/// the whole mesh, after the same repair. needs_valid: the method cannot start with invalid cells.
+/// Then InputError is thrown for cells that straight edges do not repair although their corners are
+/// valid. It is also thrown for nodes that slide.
+template <int dim>
+SmoothingResult smooth_with_midside_nodes(
+    Mesh<dim>& mesh, bool needs_valid,
+    const std::type_identity_t<std::function<SmoothingResult(Mesh<dim>&)>>& smooth_nodes);
+
 }  // namespace smoothfem

@@ -33,8 +33,9 @@ Eigen::MatrixXd dense_matrix(const BlockMatrix<dim>& matrix) {
   return dense;
 }
 
-template <int dim>
-DenseDerivatives dense_derivatives(ShapeObjective<dim>& objective, const Mesh<dim>& mesh,
+/// objective: a ShapeObjective or a CurvedObjective.
+template <class Objective, int dim>
+DenseDerivatives dense_derivatives(Objective& objective, const Mesh<dim>& mesh,
                                    HessianModel model) {
   BlockMatrix<dim> matrix = objective.make_hessian();
   BlockVector<dim> gradient = matrix.make_vector();

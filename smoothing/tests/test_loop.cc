@@ -63,12 +63,12 @@ TEST(Parameters, TextReadsBackAsTheSameValue) {
 
 TEST(Catalogue, HasTheBuiltInMethodsAndListsThemInErrors) {
   for (const std::string name :
-       {"getme", "getme-sequential", "getme-simultaneous", "global-optimization", "laplace",
-        "smart-laplace", "weighted-laplace"})
+       {"curved-optimization", "getme", "getme-sequential", "getme-simultaneous",
+        "global-optimization", "laplace", "smart-laplace", "weighted-laplace"})
     EXPECT_FALSE(make_method<2>(name).stages.empty()) << name;
   EXPECT_THAT(message_of([] { make_method<2>("getmee"); }),
               HasSubstr("there is no method 'getmee'; did you mean 'getme'? choose one of "
-                        "energy-descent, energy-lbfgs, getme, "));
+                        "curved-optimization, energy-descent, energy-lbfgs, getme, "));
 }
 
 template <int dim>

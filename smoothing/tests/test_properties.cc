@@ -229,7 +229,7 @@ void commutes_with_similarities(const std::string& name, const RandomMesh<dim>& 
   const auto mesh = valid_mesh(random);
   RC_PRE(mesh_quality(mesh).q_min > 0.01);
   auto here = mesh, there = similarity(mesh);
-  const bool to_the_end = name == "global-optimization";
+  const bool to_the_end = name == "global-optimization" || name == "curved-optimization";
   const auto method = [&] {
     return to_the_end ? make_method<dim>(name) : test::short_method<dim>(name, "2");
   };

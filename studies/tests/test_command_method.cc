@@ -107,6 +107,32 @@ TEST_F(CommandMethod, MeditIsWrittenForPlanarMeshesToo) {
   expect_laplace({"0", "1"});
 }
 
+/// The program moves all nodes. Run in this process, its method gives the same mesh.
+TEST_F(CommandMethod, GetsAndMovesMidsideNodesIfAsked) {
+  PlanarMesh mesh = with_midside_nodes(read_planar(file("grid.vtu")).mesh);
+  const NodeIndex on_boundary = mesh.topology().midside_nodes(0)[0];
+  mesh.coordinates()[on_boundary] += Point<2>(0.02, 0.1);
+  write_mesh(file("curved.vtu"), mesh);
+  const std::string same = " -m curved-optimization --set max_iterations=1 --allow-worse -o {out}";
+  const auto smooth = [&](const std::string& out, std::vector<std::string> words) {
+    words.insert(words.begin(), {"smooth", "curved.vtu", "-o", out, "--allow-worse", "-m"});
+    return smoothfem(words);
+  };
+  EXPECT_EQ(smooth("here.vtu", {"curved-optimization", "--set", "max_iterations=1"}).exit_code, 0);
+  const std::string command =
+      "command=" + (std::string("'") + SMOOTHFEM_PROGRAM + "' smooth {in}") + same;
+  std::vector<std::string> words{"command", "--set", command, "--set", "second_order=true"};
+  const Outcome refused = smooth("there.vtu", words);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("write 'set format = msh' or 'set format = vtu'"));
+  words.insert(words.end(), {"--set", "format=msh"});
+  const Outcome outcome = smooth("there.vtu", words);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(read_planar(file("there.vtu")).mesh.copied_coordinates(),
+            read_planar(file("here.vtu")).mesh.copied_coordinates());
+  EXPECT_NE(read_planar(file("there.vtu")).mesh.copied_coordinates(), mesh.copied_coordinates());
+}
+
 TEST_F(CommandMethod, RepeatsOnItsOwnResult) {
   EXPECT_EQ(status_of(" set command = " + laplace("1") + "\n set repeat = 3\n"), "ok");
   expect_laplace({"0", "1", "2", "3"});
