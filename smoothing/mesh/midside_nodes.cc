@@ -99,7 +99,6 @@ CompressedRows<NodeIndex> midside_of_facets(int dim, const CompressedRows<NodeIn
     if (dim == 3)
       if (const NodeIndex middle = nodes.at(place_of(facets[f])); middle != no_corner)
         row.push_back(middle);
-    if (std::find(row.begin(), row.end(), no_corner) != row.end()) row.clear();
     rows.append(row);
   }
   return rows;

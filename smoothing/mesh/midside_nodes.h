@@ -116,8 +116,8 @@ void for_each_midside_place(int dim, std::span<const NodeIndex> corners,
 std::vector<NodeIndex> reordered_midside(int dim, std::span<const NodeIndex> midside,
                                          std::span<const LocalIndex> corners);
 
-/// Returns the midside nodes of facets: those of their sides in order, then that in their middle,
-/// if there is one. A row is empty if a side has none. dim: of the cells. cells, midside: as below.
+/// Returns the midside nodes of facets: those of their sides in order, no_corner where there is
+/// none, then that in their middle, if there is one. dim: of the cells. cells, midside: as below.
 CompressedRows<NodeIndex> midside_of_facets(int dim, const CompressedRows<NodeIndex>& cells,
                                             const CompressedRows<NodeIndex>& midside,
                                             const CompressedRows<NodeIndex>& facets);

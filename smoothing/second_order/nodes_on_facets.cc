@@ -10,7 +10,8 @@ std::vector<bool> midside_nodes_on_facets(const Topology& topology) {
   for (const auto& facets : {topology.boundary_facets(), inner_interfaces(topology).facets}) {
     const auto nodes = midside_of_facets(topology.dimension(), topology.cells(),
                                          topology.midside()->of_cells, facets);
-    for (const NodeIndex node : nodes.entries()) flags[node] = true;
+    for (const NodeIndex node : nodes.entries())
+      if (node != no_corner) flags[node] = true;
   }
   return flags;
 }

@@ -35,7 +35,7 @@ LineConstraints::LineConstraints(const SurfaceFacets& edges, std::span<const Poi
   std::vector<Point<3>> points;
   for (const auto& rows : {edges_, edges.midside})
     for (const NodeIndex node : rows.entries())
-      if (wall_nodes_[node] == absent) {
+      if (node != no_corner && wall_nodes_[node] == absent) {
         wall_nodes_[node] = static_cast<NodeIndex>(points.size());
         points.push_back(in_space(coordinates[node]));
       }
@@ -49,8 +49,9 @@ LineConstraints::LineConstraints(const SurfaceFacets& edges, std::span<const Poi
     const NodeIndex a = wall_nodes_[edges_[e][0]], b = wall_nodes_[edges_[e][1]];
     wall.nodes.append(std::array{a, b, b + n, a + n});
     if (edges.midside.size() == 0) continue;
-    std::vector<NodeIndex> row;
-    if (!edges.midside[e].empty()) {
+    std::array<NodeIndex, 4> row;
+    row.fill(no_corner);
+    if (edges.midside[e][0] != no_corner) {
       const NodeIndex middle = wall_nodes_[edges.midside[e][0]];
       row = {middle, b + 2 * n, middle + n, a + 2 * n};
     }

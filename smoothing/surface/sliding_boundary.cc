@@ -98,7 +98,9 @@ std::shared_ptr<const NodeConstraints<dim>> sliding_constraints(
     const FeatureParameters& parameters, double slide_distance) {
   require_slide_distance(slide_distance);
   // Curved facets follow the surface, so that their chords may be far from it.
-  const bool is_curved = facets.midside.n_entries() > 0;
+  const auto& midside = facets.midside.entries();
+  const bool is_curved =
+      std::any_of(midside.begin(), midside.end(), [](NodeIndex node) { return node != no_corner; });
   return std::make_shared<const Constraints<dim>>(
       facets, coordinates, parameters,
       is_curved ? NodeConstraints<dim>::unbounded

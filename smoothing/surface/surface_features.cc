@@ -178,7 +178,7 @@ class FeatureSearch {
     auto& nodes = result_.classifications;
     for (std::uint32_t f = 0; f < facets_.midside.size(); ++f)
       for (const NodeIndex i : facets_.midside[f])
-        nodes[i] = {GeometricClassification::patch, result_.facet_patches[f]};
+        if (i != no_corner) nodes[i] = {GeometricClassification::patch, result_.facet_patches[f]};
     for (std::uint32_t e = 0; e < result_.feature_edges.size(); ++e) {
       const NodeIndex middle = middle_of(result_.feature_edges[e]);
       result_.edge_middles.push_back(middle);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -15,16 +16,17 @@ struct SurfaceFacets {
   CompressedRows<NodeIndex> nodes;
   std::vector<int> tags;  ///< labels whose borders are features; empty: none
   std::vector<std::array<NodeIndex, 2>> marked_edges;  ///< edges that are features at any angle
-  /// Of each facet of second order, the nodes of its sides and in its middle; empty rows, or none,
-  /// for linear facets.
+  /// Of each facet, the nodes of its sides and in its middle, as midside_of_facets() returns them;
+  /// no rows if all facets are linear.
   CompressedRows<NodeIndex> midside = {};
 
-  /// Returns corners and midside nodes of a facet; nothing if it is linear.
+  /// Returns corners and midside nodes of a facet; nothing if it is linear, or a side of it.
   std::vector<NodeIndex> curved_nodes(std::size_t facet) const {
     std::vector<NodeIndex> row;
-    if (midside.size() == 0 || midside[facet].empty()) return row;
-    for (const auto part : {nodes[facet], midside[facet]})
-      row.insert(row.end(), part.begin(), part.end());
+    if (midside.size() == 0) return row;
+    const auto others = midside[facet];
+    if (std::find(others.begin(), others.end(), no_corner) != others.end()) return row;
+    for (const auto part : {nodes[facet], others}) row.insert(row.end(), part.begin(), part.end());
     return row;
   }
 };
