@@ -8,6 +8,7 @@
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/periodic/mesh_rules.h"
 #include "smoothing/second_order/curved_objective.h"
 #include "smoothing/second_order/curved_quality.h"
 #include "smoothing/tests/curved_cells.h"
@@ -355,6 +356,17 @@ TEST(CurvedOptimization, IsNotMixedWithStagesThatMoveCorners) {
     ADD_FAILURE() << "not refused";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("stages that move corners only"));
+  }
+}
+
+TEST(CurvedOptimization, IsRefusedWherePartnersMoveTogether) {
+  PlanarMesh mesh = four_triangles({1.2, 0.9}, 0.2);
+  auto method = make_method<2>("curved-optimization");
+  try {
+    smooth_by_rules(mesh, method, {.joins_periodic = true});
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("cannot move together with periodic partners"));
   }
 }
 
