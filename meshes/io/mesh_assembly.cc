@@ -296,6 +296,31 @@ void lay_into_plane(MeshParts& parts) {
   parts.content.plane = std::move(plane);
 }
 
+namespace {
+
+/// Throws CellError for an element of this dimension that names a node twice, with the node's
+/// number in the file. Topology knows positions only.
+void require_different_nodes(const MeshParts& parts, int dim) {
+  const ElementList& cells = parts.elements[dim];
+  std::vector<NodeIndex> sorted;
+  for (std::size_t e = 0; e < cells.nodes.size(); ++e) {
+    sorted.assign(cells.nodes[e].begin(), cells.nodes[e].end());
+    const auto midside = cells.midside_of(e);
+    sorted.insert(sorted.end(), midside.begin(), midside.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice == sorted.end()) continue;
+    // Files without numbers of nodes count from 0, apart from those of Medit.
+    const std::size_t number = *twice < parts.node_ids.size()
+                                   ? parts.node_ids[*twice]
+                                   : *twice + (parts.content.format == "medit");
+    throw CellError(e, "names node " + std::to_string(number) +
+                           " more than once; give the cell different nodes, or remove it");
+  }
+}
+
+}  // namespace
+
 bool is_planar(const MeshParts& parts) {
   const auto& points = parts.coordinates;
   return std::all_of(points.begin(), points.end(),
@@ -322,6 +347,7 @@ MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts,
     auto notes = std::move(parts.notes);
     for (std::string& done : repair_while_reading(parts, options)) notes.push_back(std::move(done));
     lines = std::move(parts.elements[dim].lines);
+    require_different_nodes(parts, dim);
     return {make_mesh(parts, dim), lines, std::move(notes)};
   } catch (const CellError& error) {
     std::string position = path.string() + ":";

@@ -201,8 +201,7 @@ TEST_F(FileContents, AbaqusNamesFacetsWithoutALabelAsLost) {
 TEST_F(FileContents, AbaqusKeepsAllTextThatIsNoCoordinate) {
   write("a.inp", cae_job);
   MeshFile read = read_mesh(file("a.inp"));
-  EXPECT_THAT(read.notes,
-              ElementsAre("1 elements of types SPRINGA are left out, as they are no cells"));
+  EXPECT_THAT(read.notes, ElementsAre("1 element of type SPRINGA is left out, as it is no cell"));
   write_mesh(file("b.inp"), read.mesh);
   EXPECT_EQ(content_of(file("b.inp")), cae_job);
   std::get<VolumeMesh>(read.mesh).coordinates()[1].x() = 1.25;

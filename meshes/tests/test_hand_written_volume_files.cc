@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadVolume{"medit_curved", ".mesh", medit_head + "HexahedraQ2 1\n",
                   "only EdgesP2, TrianglesP2, QuadrilateralsQ2 and TetrahedraP2"},
         BadVolume{"medit_twice", ".mesh", medit_head + "Tetrahedra 1\n1 2 3 3 0\nEnd\n",
-                  ":9: cell 0 names node 2 more than once"},
+                  ":9: cell 0 names node 3 more than once; give the cell different nodes"},
         BadVolume{"abaqus_type", ".inp", abaqus_head + "*ELEMENT, TYPE=C3D27\n1,1,2,3,4\n",
                   ":6: the element type 'C3D27' cannot be read"},
         BadVolume{"abaqus_node", ".inp", abaqus_head + "*ELEMENT, TYPE=C3D4\n1,1,2,3,5\n",

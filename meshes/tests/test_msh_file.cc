@@ -336,7 +336,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadMsh{"no_end_of_data", square() + "$NodeData\n1\n\"x\"\n",
                ":20: the file ends before $EndNodeData; it is truncated"},
         BadMsh{"node_twice", square("9 0 1 0", "12 2 2 1 1 2 7 7"),
-               ":16: cell 1 names node 2 more than once"},
+               ":16: cell 1 names node 7 more than once; give the cell different nodes"},
         BadMsh{"element_junk", square("9 0 1 0", "12 2 2 1 1 2 7 x"),
                ":16: the element's line holds 'x'"},
         BadMsh{"same_node_tag_twice", square("7 0 1 0"), ":10: the node tag 7 appears twice"},

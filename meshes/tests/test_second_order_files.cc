@@ -260,8 +260,8 @@ TEST_F(SecondOrderRead, nodes_of_abaqus_with_empty_coordinates_and_off_the_plane
       "*ELEMENT, TYPE=D\n2, 0, 7, 1\n";
   const MeshFile read = read_mesh(file_with("axis.inp", text));
   EXPECT_THAT(read.notes, ::testing::IsSupersetOf({"2 empty coordinates are read as 0",
-                                                   "1 elements of types D are left out, as they "
-                                                   "are no cells"}));
+                                                   "1 element of type D is left out, as it is "
+                                                   "no cell"}));
   ASSERT_TRUE(std::holds_alternative<PlanarMesh>(read.mesh));
   const Topology& topology = MeshView(read.mesh).topology();
   EXPECT_THAT(topology.midside_nodes(0), ::testing::ElementsAre(3, 4, 5));

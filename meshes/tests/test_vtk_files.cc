@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadVtk{"bezier", ".vtk",
                head + "POINTS 6 double\n0 0 0\n1 0 0\n0 1 0\n.5 0 0\n.5 .5 0\n0 .5 0\n"
                       "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n76\n",
-               "(vtkBezierQuadrilateral) with 6 nodes; cells of this type or order cannot be read"},
+               "(vtkBezierTriangle) with 6 nodes; cells of this type or order cannot be read"},
         BadVtk{"image", ".vtk",
                "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 1\n"
                "ORIGIN 0 0 0\nSPACING 1 1 1\n",

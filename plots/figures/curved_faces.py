@@ -2,12 +2,14 @@
 """Faces of grids with cells of second order, and their flat pieces."""
 
 from dataclasses import dataclass, replace
+from typing import Optional
 
 import numpy as np
 
 from ..results.cell_types import CELL_DIMENSIONS, SECOND_ORDER
 from .shape_functions import faces_of_cell, planar_pieces, shape_derivatives, shape_values
 
+TRIANGLE, POLYGON = 5, 7
 MOST_FINE_FACES = 5000  # with FINE_PIECES along an edge; more faces are small in a picture
 FINE_PIECES, PIECES = 8, 4
 
@@ -24,6 +26,7 @@ class Faces:
     kind: int
     nodes: np.ndarray  # (n, nodes of the type), corners first
     cells: np.ndarray  # (n,): the cell of each
+    are_edges: Optional[np.ndarray] = None  # (n, edges): which sides are edges of the cell; None: all
 
     def chosen(self, mask):
         """Those of a mask."""
@@ -63,9 +66,11 @@ class Faces:
 
 
 def all_faces(grid, chosen=None):
-    """The faces of the cells of a curved grid, or of those of a mask, as a list by type; planar cells are faces themselves."""
+    """The faces of the cells of a curved grid, or of those of a mask, as a list by type; planar cells are faces themselves, and
+    polygons are split into triangles."""
     cells, found = grid.curved, {}
-    for kind in np.unique(cells.types):
+    polygons = polygons_as_triangles(grid)
+    for kind in np.setdiff1d(cells.types, [POLYGON]):
         numbers = np.flatnonzero(cells.types == kind if chosen is None else (cells.types == kind) & chosen)
         if not len(numbers):
             continue
@@ -74,7 +79,20 @@ def all_faces(grid, chosen=None):
         volume = CELL_DIMENSIONS[int(kind)] == 3
         for face, positions in faces_of_cell(int(kind)) if volume else [(int(kind), range(size))]:
             found.setdefault(face, []).append((rows[:, list(positions)], numbers))
-    return [Faces(kind, *map(np.concatenate, zip(*parts))) for kind, parts in found.items()]
+    return [Faces(kind, *map(np.concatenate, zip(*parts))) for kind, parts in found.items()] + polygons
+
+
+def polygons_as_triangles(grid):
+    """A list of the fans of all polygons as Faces; empty without polygons, which only planar meshes and surfaces have."""
+    found, cells = [], grid.curved
+    for c in np.flatnonzero(cells.types == POLYGON):
+        nodes = cells.connectivity[cells.offsets[c]:cells.offsets[c + 1]]
+        last = len(nodes) - 2
+        found += [(c, (nodes[0], nodes[k], nodes[k + 1]), (k == 1, True, k == last)) for k in range(1, last + 1)]
+    if not found:
+        return []
+    numbers, rows, are_edges = map(np.array, zip(*found))
+    return [Faces(TRIANGLE, rows, numbers, are_edges)]
 
 
 def outer_faces(grid, chosen=None):
@@ -106,4 +124,5 @@ def distinct_edges(faces):
     mask = np.zeros(sum(map(len, ends)), dtype=bool)
     mask[first] = True
     parts = np.split(mask, np.cumsum([len(rows) for rows in ends])[:-1])
-    return [part.reshape(size) for part, size in zip(parts, sizes)]
+    return [part.reshape(size) & (True if of_type.are_edges is None else of_type.are_edges)
+            for of_type, part, size in zip(faces, parts, sizes)]

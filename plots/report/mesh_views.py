@@ -25,7 +25,7 @@ VERDICT_CELLS = {5: "Triangle", 9: "Quad", 10: "Tet", 12: "Hex"}
 STEPS = 255  # a number of a cell is one of so many between 0 and 1
 N_WORST = 10
 MOST_TRIANGLES = 150_000  # a page with more would be slow to open
-CURVED_PIECES = (4, 2)  # along each edge of a curved face, as many as there is room for
+CURVED_PIECES = (8, 4, 2)  # along each edge of a curved face, as many as there is room for
 
 
 def base64_of(values, kind):

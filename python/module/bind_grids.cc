@@ -9,6 +9,7 @@
 #include "meshes/io/vtk/vtk_second_order.h"
 #include "python/module/bind.h"
 #include "python/module/python_mesh.h"
+#include "smoothing/second_order/shape_functions.h"
 
 namespace smoothfem {
 
@@ -172,7 +173,7 @@ namespace {
 
 /// Returns for each cell of second order (meshio's name, VTK's number or 0, dimension, number of
 /// corners, positions of its nodes in a row of midside_nodes.h).
-py::list second_order_types() {
+py::list types_of_second_order() {
   py::list types;
   const auto add = [&](const FormatElement& type) {
     const auto& [positions, size] = type.order;
@@ -185,10 +186,27 @@ py::list second_order_types() {
   return types;
 }
 
+/// Returns the values of the shape functions of elements with n_nodes nodes at points (n, dim) of
+/// their reference domain, (n, n_nodes).
+py::array_t<double> shape_values(int dim, std::size_t n_nodes, const Numbers<double>& points) {
+  const ShapeFunctions& functions = shape_functions(dim, n_nodes);
+  const auto rows = points.unchecked<2>();
+  py::array_t<double> result({rows.shape(0), static_cast<py::ssize_t>(n_nodes)});
+  auto written = result.mutable_unchecked<2>();
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
+    Point<3> x{};
+    for (int d = 0; d < dim; ++d) x[d] = rows(i, d);
+    const std::vector<double> values = functions.values(x);
+    for (std::size_t k = 0; k < n_nodes; ++k) written(i, static_cast<py::ssize_t>(k)) = values[k];
+  }
+  return result;
+}
+
 }  // namespace
 
 void bind_grids(py::module_& module) {
-  module.def("second_order_types", &second_order_types);
+  module.def("second_order_types", &types_of_second_order);
+  module.def("shape_values", &shape_values);
   module.def("from_grid", &from_grid);
   module.def("to_grid", &to_grid);
 }

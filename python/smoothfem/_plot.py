@@ -5,7 +5,7 @@ import io
 
 import numpy as np
 
-from . import _core
+from . import _core, _curves
 from ._arguments import shown, wrong
 from ._core import InputError
 
@@ -96,15 +96,18 @@ def _axes(ax, spacedim):
 
 
 def _draw_planar(mesh, axes, values, edges):
-    from matplotlib.collections import PolyCollection
-    polygons = [mesh.points[row] for rows in mesh.cells_dict.values() for row in rows]
+    from matplotlib.collections import PathCollection, PolyCollection
+    curved = mesh.order == 2
+    kind = PathCollection if curved else PolyCollection
+    cells = _curves.paths(mesh) if curved else [mesh.points[row] for rows in mesh.cells_dict.values() for row in rows]
     colour, width = ("0.2", 0.4) if edges else ("none", 0.0)
     if values is not None and len(values) == mesh.n_nodes != mesh.n_cells:
-        drawn = axes.tripcolor(*mesh.points.T, _triangles(mesh), values, shading="gouraud")
+        points, rows, values = _curves.triangles(mesh, values) if curved else (mesh.points, _triangles(mesh), values)
+        drawn = axes.tripcolor(*points.T, rows, values, shading="gouraud")
         if edges:
-            axes.add_collection(PolyCollection(polygons, facecolor="none", edgecolor=colour, linewidth=width))
+            axes.add_collection(kind(cells, facecolor="none", edgecolor=colour, linewidth=width))
     else:
-        drawn = PolyCollection(polygons, edgecolor=colour, linewidth=width)
+        drawn = kind(cells, edgecolor=colour, linewidth=width)
         if values is not None:
             drawn.set_array(np.concatenate([values[cells] for cells in _numbers(mesh).values()]))
         axes.add_collection(drawn)
@@ -123,7 +126,8 @@ def _draw_in_space(mesh, axes, values, edges, cut):
         cells = np.concatenate(list(_numbers(mesh).values()))
     else:
         faces, cells = _visible_faces(mesh, _kept(mesh, cut))
-    drawn = Poly3DCollection([mesh.points[face] for face in faces], edgecolor="0.2" if edges else "none", linewidth=0.3 if edges else 0.0)
+    polygons = _curves.outlines(mesh, faces) if mesh.order == 2 else [mesh.points[face] for face in faces]
+    drawn = Poly3DCollection(polygons, edgecolor="0.2" if edges else "none", linewidth=0.3 if edges else 0.0)
     if values is not None:
         of_nodes = len(values) == mesh.n_nodes != mesh.n_cells
         drawn.set_array(np.array([values[face].mean() for face in faces]) if of_nodes else values[cells])

@@ -50,6 +50,30 @@ class Pictures(unittest.TestCase):
             drawn = {tuple(sorted(map(tuple, solid.points[face]))) for face in faces}
             self.assertEqual(drawn, {tuple(sorted(map(tuple, solid.points[row]))) for rows in solid.boundary_facets.values() for row in rows})
 
+    def test_planar_edges_are_parabolas(self):
+        points = [[0, 0], [1, 0], [0, 1], [0.5, -0.25], [0.6, 0.6], [0, 0.5]]
+        mesh = smoothfem.Mesh(points, {"triangle6": [range(6)]})
+        path, = mesh.plot().collections[0].get_paths()
+        # Of three control points the first and the last are the corners; the curve passes the node half way.
+        np.testing.assert_allclose(path.vertices[:-1], [[0, 0], [0.5, -0.5], [1, 0], [0.7, 0.7], [0, 1], [0, 0.5], [0, 0]])
+        self.assertEqual(set(path.codes[1:-1]), {3})
+        drawn = mesh.plot(values=np.array(points)[:, 1]).collections[0]  # linear, so the values are those of the points
+        np.testing.assert_allclose(drawn.get_array(), drawn._triangulation.y, atol=1e-15)
+        self.assertAlmostEqual(drawn._triangulation.y.min(), -0.25)
+
+    def test_edges_in_space_pass_their_nodes(self):
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+        ends = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]
+        nodes = [corners[list(pair)].mean(axis=0) for pair in ends]
+        nodes[0] = np.array([0.5, -0.2, -0.2])
+        mesh = smoothfem.Mesh(np.vstack([corners, nodes]), {"tetra10": [range(10)]})
+        faces, _ = smoothfem._plot._visible_faces(mesh, np.array([True]))
+        outlines = smoothfem._curves.outlines(mesh, faces)
+        self.assertEqual([len(outline) for outline in outlines], [24] * 4)
+        for place in (nodes[0], [0.25, -0.15, -0.15], nodes[5]):  # at 1/4 a parabola has 3/4 of its height
+            self.assertEqual(sum(np.isclose(outline, place).all(axis=1).any() for outline in outlines), 2)
+        self.assertEqual(len(mesh.plot().collections[0].get_array()), 4)
+
     def test_in_notebooks(self):
         self.assertTrue(distorted("triangles")._repr_png_().startswith(b"\x89PNG"))
 

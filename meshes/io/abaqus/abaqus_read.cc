@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 
+#include "meshes/doctor/finding.h"
 #include "meshes/io/abaqus/abaqus_file.h"
 #include "meshes/io/abaqus/abaqus_lines.h"
 #include "meshes/io/abaqus/abaqus_sets.h"
@@ -222,9 +223,11 @@ class AbaqusReader {
     FileContent& content = parts_.content;
     content.format = "abaqus";
     if (!types_left_out_.empty())
-      parts_.notes.push_back(std::to_string(n_left_out_) + " elements of types " +
+      parts_.notes.push_back(count_of(n_left_out_, "element") +
+                             (types_left_out_.size() == 1 ? " of type " : " of types ") +
                              joined({types_left_out_.begin(), types_left_out_.end()}) +
-                             " are left out, as they are no cells");
+                             (n_left_out_ == 1 ? " is left out, as it is no cell"
+                                               : " are left out, as they are no cells"));
     if (n_empty_coordinates_ > 0)
       parts_.notes.push_back(std::to_string(n_empty_coordinates_) +
                              (n_empty_coordinates_ == 1 ? " empty coordinate is read as 0"

@@ -89,6 +89,23 @@ std::optional<CellKind> linear_kind_of(int vtk_type, std::size_t n_nodes) {
   return CellKind{type->dimension, type->n_corners};
 }
 
+/// Returns VTK's name of a type. VTK 9.1 itself confuses the names of triangles and quadrilaterals
+/// of higher order.
+std::string class_name(int vtk_type) {
+  switch (vtk_type) {
+    case VTK_LAGRANGE_TRIANGLE:
+      return "vtkLagrangeTriangle";
+    case VTK_LAGRANGE_QUADRILATERAL:
+      return "vtkLagrangeQuadrilateral";
+    case VTK_BEZIER_TRIANGLE:
+      return "vtkBezierTriangle";
+    case VTK_BEZIER_QUADRILATERAL:
+      return "vtkBezierQuadrilateral";
+    default:
+      return vtkCellTypes::GetClassNameFromTypeId(vtk_type);
+  }
+}
+
 bool is_wedge(int vtk_type) {
   constexpr std::array wedges{VTK_WEDGE, VTK_QUADRATIC_WEDGE, VTK_BIQUADRATIC_QUADRATIC_WEDGE,
                               VTK_LAGRANGE_WEDGE};
@@ -156,7 +173,7 @@ class GridParts {
   }
 
   [[noreturn]] void refuse_type(std::size_t cell, int type) {
-    const std::string name = vtkCellTypes::GetClassNameFromTypeId(type);
+    const std::string name = class_name(type);
     const bool curved = name.find("Quadratic") != name.npos || name.find("Order") != name.npos ||
                         name.find("Lagrange") != name.npos || name.find("Bezier") != name.npos;
     fail("cell " + std::to_string(cell) + " has the VTK type " + std::to_string(type) + " (" +
