@@ -5,12 +5,15 @@ import numpy as np
 
 from . import _core
 
-PIECES = 8  # along an edge in space; planar edges are drawn as they are
-# The edges of each type of volume cells and the quadrilateral faces, by corners, in the order of their midside nodes.
+PIECES = 8  # along an edge, of planar cells with values at the nodes
+PIECES_IN_SPACE = 4
+# The edges of each type of volume cells, and the faces with nodes in their middles, by corners, in the order of these nodes.
 EDGES = {"tetra": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
          "pyramid": [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)],
          "wedge": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
          "hexahedron": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]}
+FACES = {"tetra": [], "pyramid": [(0, 1, 2, 3)], "wedge": [(0, 1, 4, 3), (1, 2, 5, 4), (0, 2, 5, 3)],
+         "hexahedron": [(0, 3, 7, 4), (1, 2, 6, 5), (0, 1, 5, 4), (2, 3, 7, 6), (0, 1, 2, 3), (4, 5, 6, 7)]}
 
 
 def rows_of(mesh):
@@ -41,7 +44,7 @@ def triangles(mesh, values):
     at_nodes, points, rows, first = np.column_stack([mesh.points, values]), [], [], 0
     for _, row, midside in rows_of(mesh):
         if len(midside):
-            places, small = lattice(len(row))
+            places, small = lattice(len(row), PIECES)
             points.append(_core.shape_values(2, len(row) + len(midside), places) @ at_nodes[[*row, *midside]])
         else:
             points.append(at_nodes[row])
@@ -52,28 +55,48 @@ def triangles(mesh, values):
     return points[:, :2], np.concatenate(rows), points[:, 2]
 
 
-def lattice(n_corners):
-    """Returns points of the reference triangle or square with PIECES along each edge, and the triangles between them."""
-    places = [(i, j) for i in range(PIECES + 1) for j in range(PIECES + 1 - (i if n_corners == 3 else 0))]
+def lattice(n_corners, n):
+    """Returns points of the reference triangle or square with n pieces along each edge, and the triangles between them."""
+    places = [(i, j) for i in range(n + 1) for j in range(n + 1 - (i if n_corners == 3 else 0))]
     number = {place: k for k, place in enumerate(places)}
     small = [[(i, j), (i + 1, j), (i, j + 1)] for i, j in places] + [[(i + 1, j), (i + 1, j + 1), (i, j + 1)] for i, j in places]
-    return np.array(places) / PIECES, np.array([[number[at] for at in row] for row in small if all(at in number for at in row)])
+    return np.array(places) / n, np.array([[number[at] for at in row] for row in small if all(at in number for at in row)])
 
 
-def outlines(mesh, faces):
-    """Returns the outlines of faces, rows of corners, of volume meshes or surfaces as points in space along their curved edges."""
+def midside_nodes(mesh):
+    """Returns {corners of an edge or a face: its midside node}."""
     nodes = {}
     for name, row, midside in rows_of(mesh):
-        edges = EDGES[name] if mesh.dim == 3 else [(k, (k + 1) % len(row)) for k in range(len(row))]
-        nodes.update((frozenset((row[a], row[b])), node) for (a, b), node in zip(edges, midside))
-    t = np.arange(PIECES)[:, None] / PIECES
-    found = []
-    for face in faces:
-        parts = []
-        for a, b in zip(face, np.roll(face, -1)):
-            start, end = mesh.points[a], mesh.points[b]
-            node = nodes.get(frozenset((a, b)))
-            middle = 0.5 * (start + end) if node is None else mesh.points[node]
-            parts.append((1 - t) * (1 - 2 * t) * start + 4 * t * (1 - t) * middle + t * (2 * t - 1) * end)
-        found.append(np.concatenate(parts))
-    return found
+        places = [(k, (k + 1) % len(row)) for k in range(len(row))] + [range(len(row))] if mesh.dim == 2 else EDGES[name] + FACES[name]
+        nodes.update((frozenset(row[list(place)].tolist()), node) for place, node in zip(places, midside))
+    return nodes
+
+
+def pieces(mesh, faces):
+    """Returns flat pieces of curved faces, rows of corners: polygons in space, and the number of the face of each. Then the pieces of the
+    edges, each of two points."""
+    nodes, polygons, numbers, edges = midside_nodes(mesh), [], [], {}
+    for number, face in enumerate(np.asarray(row) for row in faces):
+        sides = [frozenset(side) for side in zip(face.tolist(), np.roll(face, -1).tolist())]
+        of_face = [nodes[side] for side in sides if side in nodes]  # all or none
+        edges.update((side, nodes.get(side)) for side in sides)
+        if of_face:
+            middle = nodes.get(frozenset(face.tolist()))
+            row = [*face, *of_face] + ([] if middle is None else [middle])
+            places, small = lattice(len(face), PIECES_IN_SPACE)
+            points = _core.shape_values(2, len(row), places) @ mesh.points[row]
+            polygons.extend(points[small])
+        else:
+            polygons.append(mesh.points[face])
+        numbers.extend([number] * (len(polygons) - len(numbers)))
+    return polygons, np.array(numbers), [piece for side, node in edges.items() for piece in edge_pieces(mesh, sorted(side), node)]
+
+
+def edge_pieces(mesh, ends, node):
+    """Returns the pieces (2, 3) of an edge; node: in its middle, or None."""
+    start, end = mesh.points[ends]
+    if node is None:
+        return [np.array([start, end])]
+    t = np.arange(PIECES_IN_SPACE + 1)[:, None] / PIECES_IN_SPACE
+    line = (1 - t) * (1 - 2 * t) * start + 4 * t * (1 - t) * mesh.points[node] + t * (2 * t - 1) * end
+    return [line[k:k + 2] for k in range(PIECES_IN_SPACE)]

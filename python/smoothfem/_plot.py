@@ -32,9 +32,11 @@ def plot(mesh, quality="mean ratio", ax=None, *, values=None, label=None, cut=No
     else:
         drawn = _draw_in_space(mesh, axes, values, edges, cut)
     if values is None:
-        drawn.set_facecolor("0.92")
+        if mesh.spacedim == 2 or mesh.order == 1:
+            drawn.set_facecolor("0.92")
         return axes
     drawn.set_cmap(cmap)
+    drawn.set_cmap(drawn.get_cmap().with_extremes(bad="0.2"))  # for edges among the pieces of curved faces
     drawn.set_clim(vmin, vmax)
     if colorbar:
         axes.figure.colorbar(drawn, ax=axes, label=label, shrink=0.8)
@@ -126,17 +128,37 @@ def _draw_in_space(mesh, axes, values, edges, cut):
         cells = np.concatenate(list(_numbers(mesh).values()))
     else:
         faces, cells = _visible_faces(mesh, _kept(mesh, cut))
-    polygons = _curves.outlines(mesh, faces) if mesh.order == 2 else [mesh.points[face] for face in faces]
-    drawn = Poly3DCollection(polygons, edgecolor="0.2" if edges else "none", linewidth=0.3 if edges else 0.0)
+    of_faces = None
     if values is not None:
         of_nodes = len(values) == mesh.n_nodes != mesh.n_cells
-        drawn.set_array(np.array([values[face].mean() for face in faces]) if of_nodes else values[cells])
-    axes.add_collection3d(drawn)
+        of_faces = np.array([values[face].mean() for face in faces]) if of_nodes else values[cells]
+    if mesh.order == 2:
+        drawn = _curved_faces(mesh, axes, faces, of_faces, edges)
+    else:
+        drawn = Poly3DCollection([mesh.points[face] for face in faces], edgecolor="0.2" if edges else "none", linewidth=0.3 if edges else 0.0)
+        drawn.set_array(of_faces)
+        axes.add_collection3d(drawn)
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     for set_limits, a, b in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), low, high):
         set_limits(a, b)
     axes.set_box_aspect(np.maximum(high - low, 1e-3 * (high - low).max()))
     axes.set_axis_off()
+    return drawn
+
+
+def _curved_faces(mesh, axes, faces, values, edges):
+    """Adds curved faces in pieces. Edges are among the pieces, so that those behind other pieces are hidden."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+    polygons, numbers, lines = _curves.pieces(mesh, faces)
+    lines = lines if edges else []
+    # No point of an edge is farther than the farthest of the pieces that it bounds, so it is drawn after these.
+    drawn = Poly3DCollection(polygons + [line[[0, 1, 0]] for line in lines], linewidth=0.3, zsort="max")
+    if values is not None:  # edges have none, and the colour of numbers that are not there
+        drawn.set_array(np.ma.masked_invalid(np.concatenate([values[numbers], np.full(len(lines), np.nan)])))
+    else:
+        drawn.set_facecolor(["0.92"] * len(polygons) + ["0.2"] * len(lines))
+    axes.add_collection3d(drawn)
+    drawn.set_edgecolor("face")  # after it is in Axes, which matplotlib asks for the order of the polygons
     return drawn
 
 

@@ -68,11 +68,28 @@ class Pictures(unittest.TestCase):
         nodes[0] = np.array([0.5, -0.2, -0.2])
         mesh = smoothfem.Mesh(np.vstack([corners, nodes]), {"tetra10": [range(10)]})
         faces, _ = smoothfem._plot._visible_faces(mesh, np.array([True]))
-        outlines = smoothfem._curves.outlines(mesh, faces)
-        self.assertEqual([len(outline) for outline in outlines], [24] * 4)
+        polygons, numbers, lines = smoothfem._curves.pieces(mesh, faces)
+        self.assertEqual((len(polygons), sorted(set(numbers)), len(lines)), (4 * 16, [0, 1, 2, 3], 6 * 4))
         for place in (nodes[0], [0.25, -0.15, -0.15], nodes[5]):  # at 1/4 a parabola has 3/4 of its height
-            self.assertEqual(sum(np.isclose(outline, place).all(axis=1).any() for outline in outlines), 2)
-        self.assertEqual(len(mesh.plot().collections[0].get_array()), 4)
+            of_faces = {number for polygon, number in zip(polygons, numbers) if np.isclose(polygon, place).all(axis=1).any()}
+            self.assertEqual(len(of_faces), 2)
+            self.assertEqual(sum(np.isclose(line, place).all(axis=1).any() for line in lines), 2)
+        drawn = mesh.plot().collections[0]
+        self.assertEqual(len(drawn.get_array().compressed()), len(polygons))
+        self.assertEqual(len(mesh.plot(edges=False).collections[0].get_array()), len(polygons))
+        drawn = mesh.plot(None).collections[0]
+        self.assertEqual(len(drawn.get_facecolor()), len(polygons) + len(lines))
+
+    def test_faces_pass_the_nodes_in_their_middles(self):
+        places = [[x, y, z] for x, y, z in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))]
+        pairs = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+        opposite = [(0, 7), (1, 6), (0, 5), (3, 6), (0, 2), (4, 6), (0, 6)]
+        points = np.array(places + [np.add(places[a], places[b]) / 2 for a, b in pairs + opposite], float)
+        points[20:26] += 0.1 * (points[20:26] - 0.5)  # the middles of the faces move outwards
+        mesh = smoothfem.Mesh(points, {"hexahedron27": [range(27)]})
+        polygons, _, _ = smoothfem._curves.pieces(mesh, smoothfem._plot._visible_faces(mesh, np.array([True]))[0])
+        for place in points[20:26]:
+            self.assertTrue(any(np.isclose(polygon, place).all(axis=1).any() for polygon in polygons))
 
     def test_in_notebooks(self):
         self.assertTrue(distorted("triangles")._repr_png_().startswith(b"\x89PNG"))
