@@ -36,7 +36,8 @@ def plot(mesh, quality="mean ratio", ax=None, *, values=None, label=None, cut=No
             drawn.set_facecolor("0.92")
         return axes
     drawn.set_cmap(cmap)
-    drawn.set_cmap(drawn.get_cmap().with_extremes(bad="0.2"))  # for edges among the pieces of curved faces
+    if mesh.spacedim == 3 and mesh.order == 2:  # the edges among the pieces of curved faces
+        drawn.set_cmap(drawn.get_cmap().with_extremes(bad="0.2"))
     drawn.set_clim(vmin, vmax)
     if colorbar:
         axes.figure.colorbar(drawn, ax=axes, label=label, shrink=0.8)
