@@ -187,8 +187,8 @@ TEST(Domains, KnowWhichElementsTheSeedChanges) {
     const Domain& domain = find_domain(name);
     for (const auto& elements : domain.elements) {
       SCOPED_TRACE(name + " of " + elements);
-      const AnyMesh one = domain.generate({.elements = elements, .seed = 1}),
-                    other = domain.generate({.elements = elements, .seed = 2});
+      const AnyMesh one = domain.generate({.elements = elements, .edge_scale = 2.0, .seed = 1}),
+                    other = domain.generate({.elements = elements, .edge_scale = 2.0, .seed = 2});
       EXPECT_EQ(numbers_of(one) != numbers_of(other) || cells_of_any(one) != cells_of_any(other),
                 domain.is_random(elements));
     }

@@ -10,7 +10,7 @@ from ..collections.comparison import share
 from ..collections.problems import AS_GENERATED, WORSE, problems_of
 from ..results.collection import read_collection_results
 from ..results.rows import read_rows
-from ..statistics.units import geometric, mean_of_units
+from ..statistics.units import geometric, mean_of_units, t_interval
 from .blocks import table
 from .gears import bad_meshes, clusters, minimum
 from .published import practice, published_hexahedra
@@ -120,7 +120,7 @@ def blocks(found, reference):
     """The blocks of the answer page."""
     return {"run": what_was_run(found), "levels": levels(found), "good": good_meshes(found), "bad": bad_meshes(reference),
             "methods": methods(found), "budgets": budgets(found), "clusters": clusters(reference), "minimum": minimum(reference), "low-minimum": low_minimum(found),
-            "cost": cost(found), "prediction": prediction(found), "practice": practice(reference), "orders": order_or_constant(reference), "moving": moving(reference)}
+            "cost": cost(found), "prediction": prediction(found), "practice": practice(reference), "orders": order_or_constant(reference), "sizes": sizes(reference), "moving": moving(reference)}
 
 
 def what_was_run(found):
@@ -281,6 +281,37 @@ def orders_of(reference, study):
                                      for is_initial in (True, False)))
              for (norm, degree), order in expected.items()]
     return table(("error", "degree", "expected", "before smoothing", "after smoothing"), lines, "lrrrr")
+
+
+def sizes(reference):
+    """Gains on large meshes beside those on small ones: the same domains, elements and problems."""
+    small, large = gains_by_domain(reference, FIELDS), gains_by_domain(reference, ("field-large",))
+    rows = []
+    for elements in ELEMENTS:
+        for level, name in list(LEVELS.items())[:2]:
+            domains = sorted(domain for of, at, domain in large if (of, at) == (elements, level) and (of, at, domain) in small)
+            pairs = np.array([(small[elements, level, domain], large[elements, level, domain]) for domain in domains])
+            means = [f"{np.exp(mean):.2f}" for mean in pairs.mean(axis=0)]
+            differences = pairs[:, 1] - pairs[:, 0]
+            quotient, (low, high) = geometric((differences.mean(), t_interval(differences)))
+            rows.append((elements, name, len(domains), *means, f"{quotient:.2f} ({low:.2f} to {high:.2f})", "yes" if low > 1 or high < 1 else "no"))
+    counts = read_rows(reference / "field-large" / "members.csv").number("n_nodes")
+    return (f"`field-large` has meshes of {int(np.nanmin(counts)):,} to {int(np.nanmax(counts)):,} nodes. H1 error after over before GETMe simultaneous, degree "
+            "1, the same domains and problems in both studies ([criterion](field-study.md#do-the-gains-depend-on-the-size)):\n\n"
+            + table(("elements", "initial mesh", "domains", "small meshes", "large meshes", "large over small (95 % interval)", "depends on the size"),
+                    rows, "llrrrrl"))
+
+
+def gains_by_domain(reference, studies):
+    """{(elements, level, domain): mean logarithm of the H1 error after over before GETMe simultaneous}, degree 1, smooth and layer."""
+    found = {}
+    for study in studies:
+        before, after = (pair.records() for pair in pairs_of(reference, study))
+        for first, last in zip(before, after):
+            if first["degree"] == "1" and first["solution"] in ("smooth", "layer") and last["n_invalid"] == "0":
+                key = first["elements"], first["distortion"] or "as generated", first["domain"]
+                found.setdefault(key, []).append(np.log(float(last["h1_error"]) / float(first["h1_error"])))
+    return {key: np.mean(values) for key, values in found.items()}
 
 
 def moving(reference):
