@@ -284,7 +284,7 @@ def orders_of(reference, study):
 
 
 def sizes(reference):
-    """Gains on large meshes beside those on small ones: the same domains, elements and problems."""
+    """Gains on large meshes next to those on small ones: the same domains, elements and problems."""
     small, large = gains_by_domain(reference, FIELDS), gains_by_domain(reference, ("field-large",))
     rows = []
     for elements in ELEMENTS:
