@@ -2,6 +2,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "smoothing/second_order/raise_order.h"
 #include "studies/tests/command_line.h"
 
 namespace smoothfem {
