@@ -286,7 +286,7 @@ def orders_of(reference, study):
 def sizes(reference):
     """Gains on large meshes next to those on small ones: the same domains, elements and problems."""
     small, large = gains_by_domain(reference, FIELDS), gains_by_domain(reference, ("field-large",))
-    rows = []
+    rows, quotients = [], []
     for elements in ELEMENTS:
         for level, name in list(LEVELS.items())[:2]:
             domains = sorted(domain for of, at, domain in large if (of, at) == (elements, level) and (of, at, domain) in small)
@@ -294,12 +294,14 @@ def sizes(reference):
             means = [f"{np.exp(mean):.2f}" for mean in pairs.mean(axis=0)]
             differences = pairs[:, 1] - pairs[:, 0]
             quotient, (low, high) = geometric((differences.mean(), t_interval(differences)))
-            rows.append((elements, name, len(domains), *means, f"{quotient:.2f} ({low:.2f} to {high:.2f})", "yes" if low > 1 or high < 1 else "no"))
+            quotients.append(quotient)
+            rows.append((elements, name, len(domains), *means, f"{quotient:.3f} ({low:.3f} to {high:.3f})", "yes" if low > 1 or high < 1 else "no"))
     counts = read_rows(reference / "field-large" / "members.csv").number("n_nodes")
     return (f"`field-large` has meshes of {int(np.nanmin(counts)):,} to {int(np.nanmax(counts)):,} nodes. H1 error after over before GETMe simultaneous, degree "
             "1, the same domains and problems in both studies ([criterion](field-study.md#do-the-gains-depend-on-the-size)):\n\n"
             + table(("elements", "initial mesh", "domains", "small meshes", "large meshes", "large over small (95 % interval)", "depends on the size"),
-                    rows, "llrrrrl"))
+                    rows, "llrrrrl")
+            + f"\n\nSo large meshes are left with {spread(quotients)} times the part of the error that small ones are left with.")
 
 
 def gains_by_domain(reference, studies):
