@@ -2,11 +2,14 @@
 """Tests solve(): formulas, diffusivities and natural groups as in studies; the nodal solution and its errors."""
 
 import json
+import sys
 import unittest
 
 import numpy as np
 
-from .built import PROGRAM, QUADRILATERALS, SQUARE, distorted, grid, run, smoothfem
+from plots.results.rows import read_rows
+
+from .built import PROGRAM, QUADRILATERALS, SOURCE, SQUARE, distorted, grid, run, smoothfem
 from .test_meshes import Block, Foreign
 
 
@@ -22,6 +25,22 @@ def two_materials():
         points=points, cells=[Block("line", np.c_[low, low + 1]), Block("line", np.c_[high, high + 1]), Block("quad", cells)], point_data={},
         cell_data={"gmsh:physical": [np.full(8, 3), np.full(8, 4), tags]},
         field_data={"left": [1, 2], "right": [2, 2], "bottom": [3, 1], "top": [4, 1]}, cell_sets={}))
+
+
+class Straightened(unittest.TestCase):
+    """The table of the page on curved elements is that of its script."""
+
+    def test_the_disc_has_the_row_of_the_page(self):
+        sys.path.insert(0, str(SOURCE / "studies" / "reasons"))
+        try:
+            from straightened import errors_of
+        finally:
+            sys.path.pop(0)
+        found = errors_of("disc", "triangles", 11.3)
+        row = read_rows(SOURCE / "docs" / "explanation" / "curved-straightened.csv").select(domain="disc", elements="triangles").records()[0]
+        for name in ("initial", "global", "curved", "straightened"):
+            self.assertAlmostEqual(float(found[name]) / float(row[name]), 1, 4)
+        self.assertLess(float(found["straightened"]), 0.6 * float(found["curved"]))
 
 
 class Solutions(unittest.TestCase):
