@@ -68,6 +68,7 @@ foreach(folder base geometry getme laplacian loop mesh optimization periodic pol
     COMPONENT development)
 endforeach()
 foreach(header meshes/distortion/distort.h meshes/domains/catalogue.h meshes/io/mesh_file.h
+        meshes/tools/curved_boundary.h meshes/tools/outline.h
         meshes/io/mesh_view.h meshes/io/vtu_series.h fem/space/finite_element_space.h fem/solutions/manufactured_solution.h fem/solutions/point_function.h
         fem/constraints/node_ties.h fem/poisson_solver.h fem/assembly/load.h fem/solution_record.h fem/ranks/ranks.h fem/elements/reference_element.h
         fem/elements/curved_cells.h

@@ -60,6 +60,7 @@ LISTINGS = {
     ("how-to/smoother-in-cpp", "cpp"): "studies/CMakeLists.txt compiles it into documented_smoother_test",
     ("how-to/solver-in-cpp", "cpp"): "two lines that need the class around them",
     ("explanation/architecture", "text"): "the data flow",
+    ("how-to/second-order", "text"): "a part of a study; launcher/tests/test_adapters.py runs its program",
 }
 # Commands of one page: drawing all figures of a study takes 12 s, and launcher/tests/test_installed.py tests it.
 SHORTER_ON_PAGE = {
@@ -89,6 +90,7 @@ MADE = {
     "how-to/latex": ("error.pdf", "quality.pdf", "errors.tex", "results/gear/report.html"),
     "how-to/keep-what-a-file-says": ("smoothed.msh", "moved.msh", "other.msh"),
     "how-to/check-and-repair": ("whole.vtk", "smoothed.vtk"),
+    "how-to/second-order": ("better.vtu",),
     "how-to/untangle-and-slide": ("valid.vtk", "slid.vtu", "smooth-roof.vtu", "bad.vtu", "local.vtu"),
     "how-to/reproduce-the-thesis": ("out.msh", "tuned.msh"),
     "reference/result-files": ("counts.csv", "quality.png"),
