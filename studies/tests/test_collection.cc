@@ -298,15 +298,15 @@ TEST_F(PublishedSets, AreNamedOnTheCommandLine) {
 }
 
 TEST_F(Collections, MergedShardsAreTheWhole) {
-  write_good_meshes(3);
+  write_good_meshes(1);
   write_study(
       "set solutions = sine, wave\nset domains = gear: 6\nset elements = triangles\n"
       "set distortions = 0.6\nset seeds = 1, 2\n"
       "subsection solution wave\n set u = sin(3*X)*cos(2*Y) + Z\nend\n");
   ASSERT_EQ(smoothfem({"study", "all.prm", "--out", "whole", "--quiet"}).exit_code, 0);
   const CsvTable whole = table("whole/members.csv");
-  EXPECT_EQ(whole.rows.size(), 16u);
-  EXPECT_EQ(whole.select({{"status", "complete"}}).size(), 16u);
+  EXPECT_EQ(whole.rows.size(), 8u);
+  EXPECT_EQ(whole.select({{"status", "complete"}}).size(), 8u);
   std::size_t n_members = 0;
   for (const std::string part : {"1", "2"}) {
     const Outcome outcome =
@@ -314,7 +314,7 @@ TEST_F(Collections, MergedShardsAreTheWhole) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     n_members += table("part" + part + "/members.csv").rows.size();
   }
-  EXPECT_EQ(n_members, 16u);
+  EXPECT_EQ(n_members, 8u);
   ASSERT_EQ(smoothfem({"merge", "part2", "part1", "--out", "both"}).exit_code, 0);
   expect_same_tables("whole", "both");
   const Outcome again = smoothfem({"study", "all.prm", "--out", "both"});
@@ -323,8 +323,8 @@ TEST_F(Collections, MergedShardsAreTheWhole) {
   // Without a part, the merged folder says what it lacks, and the study completes it.
   const Outcome half = smoothfem({"merge", "part2", "part2", "--out", "half"});
   EXPECT_EQ(half.exit_code, 2);
-  EXPECT_THAT(half.err, ::testing::ContainsRegex("of 16 members are not complete.*belong to 1/2"));
-  EXPECT_EQ(table("half/members.csv").rows.size(), 16u);
+  EXPECT_THAT(half.err, ::testing::ContainsRegex("of 8 members are not complete.*belong to 1/2"));
+  EXPECT_EQ(table("half/members.csv").rows.size(), 8u);
   EXPECT_THAT(content_of(file("half/provenance.json")),
               ::testing::HasSubstr("\"status\": \"interrupted\""));
   ASSERT_EQ(smoothfem({"study", "all.prm", "--out", "half", "--quiet"}).exit_code, 0);
