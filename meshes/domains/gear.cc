@@ -183,10 +183,6 @@ PlanarCells with_n_cells(const Polygons& polygons, const GearParameters& p) {
   return best;
 }
 
-}  // namespace
-
-namespace {
-
 /// at: see divide().
 Polygons boundary_polygons(const GearParameters& p, double at = 0.0) {
   return divide(gear_outlines(p), p.n_boundary_edges,

@@ -311,7 +311,7 @@ def gains_by_domain(reference, studies):
         before, after = (pair.records() for pair in pairs_of(reference, study))
         for first, last in zip(before, after):
             if first["degree"] == "1" and first["solution"] in ("smooth", "layer") and last["n_invalid"] == "0":
-                key = first["elements"], first["distortion"] or "as generated", first["domain"]
+                key = first["elements"], first["distortion"] or AS_GENERATED, first["domain"]
                 found.setdefault(key, []).append(np.log(float(last["h1_error"]) / float(first["h1_error"])))
     return {key: np.mean(values) for key, values in found.items()}
 

@@ -5,6 +5,7 @@ from collections import Counter
 
 import numpy as np
 
+from ..collections.problems import AS_GENERATED
 from ..results.data_folder import data_folder
 from ..results.rows import entries, read_rows
 from ..results.smoothing import read_provenance
@@ -15,7 +16,6 @@ CURVED, STRAIGHT = "curved", "curved-straight"
 ERRORS = {"h1_error": "H1", "l2_error": "L2"}
 WHOLE = "curved-optimization"  # moves midside nodes, too
 LEAST_CHANGE = 0.01  # of a ratio from 1, by the criteria of the page
-AS_GENERATED = "as generated"
 
 
 def blocks(reference):

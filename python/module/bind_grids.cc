@@ -2,6 +2,8 @@
 // Meshes as arrays in the form of VTK, for the objects of other packages.
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "meshes/io/all_elements.h"
 #include "meshes/io/node_order.h"
 #include "meshes/io/vtk/vtk_files.h"
@@ -9,6 +11,7 @@
 #include "meshes/io/vtk/vtk_second_order.h"
 #include "python/module/bind.h"
 #include "python/module/python_mesh.h"
+#include "smoothing/mesh/midside_nodes.h"
 #include "smoothing/second_order/shape_functions.h"
 
 namespace smoothfem {
@@ -186,6 +189,24 @@ py::list types_of_second_order() {
   return types;
 }
 
+/// Returns (corners, node) for the midside node of each edge, and in the middle of each face of
+/// volume cells and of planar cells; once for each cell.
+py::list midside_places(const PythonMesh& mesh) {
+  py::list places;
+  mesh.visit([&](const auto& m) {
+    const Topology& topology = m.topology();
+    for (CellIndex c = 0; c < topology.n_cells(); ++c)
+      for_each_midside_place(
+          topology.dimension(), topology.cell_nodes(c), topology.midside_nodes(c),
+          [&](const MidsidePlace& place, NodeIndex node) {
+            if (place[0] == place[1]) return;  // in the middle of a hexahedron
+            const auto end = std::find(place.begin(), place.end(), no_corner);
+            places.append(py::make_tuple(std::vector<NodeIndex>(place.begin(), end), node));
+          });
+  });
+  return places;
+}
+
 /// Returns the values of the shape functions of elements with n_nodes nodes at points (n, dim) of
 /// their reference domain, (n, n_nodes).
 py::array_t<double> shape_values(int dim, std::size_t n_nodes, const Numbers<double>& points) {
@@ -207,6 +228,7 @@ py::array_t<double> shape_values(int dim, std::size_t n_nodes, const Numbers<dou
 void bind_grids(py::module_& module) {
   module.def("second_order_types", &types_of_second_order);
   module.def("shape_values", &shape_values);
+  module.def("midside_places", &midside_places);
   module.def("from_grid", &from_grid);
   module.def("to_grid", &to_grid);
 }

@@ -7,13 +7,6 @@ from . import _core
 
 PIECES = 8  # along an edge, of planar cells with values at the nodes
 PIECES_IN_SPACE = 4
-# The edges of each type of volume cells, and the faces with nodes in their middles, by corners, in the order of these nodes.
-EDGES = {"tetra": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
-         "pyramid": [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)],
-         "wedge": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
-         "hexahedron": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]}
-FACES = {"tetra": [], "pyramid": [(0, 1, 2, 3)], "wedge": [(0, 1, 4, 3), (1, 2, 5, 4), (0, 2, 5, 3)],
-         "hexahedron": [(0, 3, 7, 4), (1, 2, 6, 5), (0, 1, 5, 4), (2, 3, 7, 6), (0, 1, 2, 3), (4, 5, 6, 7)]}
 
 
 def rows_of(mesh):
@@ -65,11 +58,7 @@ def lattice(n_corners, n):
 
 def midside_nodes(mesh):
     """Returns {corners of an edge or a face: its midside node}."""
-    nodes = {}
-    for name, row, midside in rows_of(mesh):
-        places = [(k, (k + 1) % len(row)) for k in range(len(row))] + [range(len(row))] if mesh.dim == 2 else EDGES[name] + FACES[name]
-        nodes.update((frozenset(row[list(place)].tolist()), node) for place, node in zip(places, midside))
-    return nodes
+    return {frozenset(corners): node for corners, node in _core.midside_places(mesh)}
 
 
 def pieces(mesh, faces):

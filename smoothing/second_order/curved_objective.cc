@@ -360,11 +360,12 @@ double CurvedObjective<dim>::cell_limit(CellIndex cell, std::span<const Point<di
   if (std::all_of(nodes.begin(), nodes.end(), [&](NodeIndex i) { return from[i] == to[i]; }))
     return 1.0;
   const CellRule<dim>& rule = *rule_of_cells_[cell];
+  const CellNodes<dim> before(nodes, from);
   std::vector<Point<dim>> points(nodes.size());
   const auto is_far_enough_from_invalid = [&](double t) {
     for (std::size_t k = 0; k < nodes.size(); ++k)
       points[k] = from[nodes[k]] + t * (to[nodes[k]] - from[nodes[k]]);
-    const CellNodes<dim> before(nodes, from), after(points);
+    const CellNodes<dim> after(points);
     for (std::size_t group = 0; group < rule.n_groups(); ++group) {
       const Lanes least = (1.0 - fraction) * ShapeMatrix<dim>(rule, group, before).determinant;
       const auto is_less = !(ShapeMatrix<dim>(rule, group, after).determinant >= least);

@@ -53,8 +53,7 @@ class CornerMesh {
       std::iota(same_cells.begin(), same_cells.end(), CellIndex{0});
       topology = topology->reordered(nodes_, same_cells);
     }
-    return {std::move(topology), std::move(points),
-            numbers == CornerNumbers::dense ? nullptr : mesh.shared_constraints(),
+    return {std::move(topology), std::move(points), mesh.shared_constraints(),
             mesh.shared_targets()};
   }
 

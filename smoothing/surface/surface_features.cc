@@ -26,7 +26,8 @@ Edge sorted_edge(NodeIndex a, NodeIndex b) {
 struct Side {
   Edge edge;
   std::uint32_t facet;
-  bool reversed;  ///< runs from the higher node to the lower one
+  std::uint32_t position;  ///< in the facet
+  bool reversed;           ///< runs from the higher node to the lower one
 
   bool operator<(const Side& other) const {
     return std::tie(edge, facet) < std::tie(other.edge, other.facet);
@@ -37,9 +38,9 @@ std::vector<Side> sides_of(const CompressedRows<NodeIndex>& facets) {
   std::vector<Side> sides;
   sides.reserve(facets.n_entries());
   for (std::uint32_t f = 0; f < facets.size(); ++f)
-    for (std::size_t k = 0; k < facets[f].size(); ++k) {
+    for (std::uint32_t k = 0; k < facets[f].size(); ++k) {
       const NodeIndex a = facets[f][k], b = facets[f][k + 1 < facets[f].size() ? k + 1 : 0];
-      sides.push_back({sorted_edge(a, b), f, a > b});
+      sides.push_back({sorted_edge(a, b), f, k, a > b});
     }
   std::sort(sides.begin(), sides.end());
   return sides;
@@ -79,20 +80,9 @@ class FeatureSearch {
       : facets_(facets),
         x_(coordinates),
         cosine_(std::cos(angle_degrees * std::numbers::pi / 180.0)) {
-    for (std::uint32_t f = 0; f < facets.nodes.size(); ++f) {
+    for (std::uint32_t f = 0; f < facets.nodes.size(); ++f)
       normals_.push_back(facet_normal(facets.nodes[f], coordinates));
-      const auto curved = facets.curved_nodes(f);
-      if (curved.empty()) continue;
-      const std::size_t n = facets.nodes[f].size();
-      std::vector<Point<3>> points;
-      for (const NodeIndex node : curved) points.push_back(coordinates[node]);
-      const QuadraticPiece piece(points);
-      for (std::size_t k = 0; k < n; ++k) {
-        const NodeIndex a = curved[k], b = curved[(k + 1) % n];
-        middles_[sorted_edge(a, b)] = curved[n + k];
-        side_normals_[{sorted_edge(a, b), f}] = piece.normal_at_side(k);
-      }
-    }
+    for (std::uint32_t f = 0; f < facets.midside.size(); ++f) add_curved_sides(f);
   }
 
   SurfaceFeatures find() {
@@ -102,6 +92,22 @@ class FeatureSearch {
   }
 
  private:
+  /// Sets the normals and the midside nodes of a facet's sides, if it is curved.
+  void add_curved_sides(std::uint32_t facet) {
+    const auto nodes = facets_.curved_nodes(facet);
+    std::vector<Point<3>> points, normals;
+    for (const NodeIndex node : nodes) points.push_back(x_[node]);
+    if (!nodes.empty()) {
+      const QuadraticPiece piece(points);
+      const std::size_t n = facets_.nodes[facet].size();
+      for (std::size_t k = 0; k < n; ++k) {
+        middles_[sorted_edge(nodes[k], nodes[(k + 1) % n])] = nodes[n + k];
+        normals.push_back(piece.normal_at_side(k));
+      }
+    }
+    side_normals_.append(normals);
+  }
+
   bool is_feature(std::span<const Side> sides) const {
     if (sides.size() != 2) return true;
     const auto a = sides[0].facet, b = sides[1].facet;
@@ -118,8 +124,8 @@ class FeatureSearch {
 
   /// Returns the unit normal of a facet, of a curved one in the middle of a side.
   const Point<3>& normal_at(const Side& side) const {
-    const auto found = side_normals_.find({side.edge, side.facet});
-    return found == side_normals_.end() ? normals_[side.facet] : found->second;
+    const bool is_curved = side_normals_.size() > 0 && !side_normals_[side.facet].empty();
+    return is_curved ? side_normals_[side.facet][side.position] : normals_[side.facet];
   }
 
   NodeIndex middle_of(const Edge& edge) const {
@@ -203,7 +209,7 @@ class FeatureSearch {
   std::span<const Point<3>> x_;
   double cosine_;
   std::vector<Point<3>> normals_;
-  std::map<std::pair<Edge, std::uint32_t>, Point<3>> side_normals_;  ///< of curved facets
+  CompressedRows<Point<3>> side_normals_;  ///< of each facet; empty rows, or none, for linear ones
   std::map<Edge, NodeIndex> middles_;
   std::vector<Edge> marked_;
   SurfaceFeatures result_;

@@ -10,22 +10,20 @@ import sys
 
 import numpy as np
 import smoothfem
+from smoothfem._curves import midside_nodes
 
 CASES = (("disc", "triangles", 11.3), ("disc", "quadrilaterals", 11.3), ("gear", "triangles", 2.83), ("ball", "tetrahedra", 7.07))
-EDGES = {"triangle": ((0, 1), (1, 2), (2, 0)), "quad": ((0, 1), (1, 2), (2, 3), (3, 0)), "tetra": ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))}
 COLUMNS = ("domain", "elements", "initial", "global", "curved", "straightened", "n_invalid")
 
 
 def straightened(mesh, initial):
     """A copy of a mesh whose midside nodes are in the middle of their edges, where those of the initial mesh are."""
     result = mesh.copy()
-    for name, midside in mesh.midside_nodes.items():
-        corners = mesh.cells_dict[name]
-        for k, (a, b) in enumerate(EDGES[name]):
-            middles = [0.5 * (points[corners[:, a]] + points[corners[:, b]]) for points in (initial.points, mesh.points)]
-            node = midside[:, k]
-            was_straight = np.abs(initial.points[node] - middles[0]).max(axis=1) < 1e-9
-            result.points[node[was_straight]] = middles[1][was_straight]
+    places = [(sorted(corners), node) for corners, node in midside_nodes(mesh).items() if len(corners) == 2]
+    edges, nodes = (np.array(part) for part in zip(*places))
+    before, after = (points[edges].mean(axis=1) for points in (initial.points, mesh.points))
+    was_straight = np.abs(initial.points[nodes] - before).max(axis=1) < 1e-9
+    result.points[nodes[was_straight]] = after[was_straight]
     return result
 
 
