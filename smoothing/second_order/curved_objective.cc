@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "smoothing/base/parallel.h"
+#include "smoothing/second_order/bending.h"
 #include "smoothing/second_order/jacobian_bounds.h"
 #include "smoothing/second_order/nodes_on_facets.h"
 #include "smoothing/simd/inverse_root.h"
@@ -16,21 +17,6 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t cell_grain = 256;  // cells that one thread takes at a time
-
-/// The nodes of one cell.
-template <int dim>
-struct CellNodes {
-  std::vector<Vector<dim, double>> x;
-
-  CellNodes(std::span<const NodeIndex> nodes, std::span<const Point<dim>> coordinates) {
-    x.reserve(nodes.size());
-    for (const NodeIndex i : nodes) x.push_back(vector_of(coordinates[i]));
-  }
-  explicit CellNodes(const std::vector<Point<dim>>& points) {
-    x.reserve(points.size());
-    for (const auto& point : points) x.push_back(vector_of(point));
-  }
-};
 
 /// S = sum_i x_i grad N_i' at a group of points, by columns, and its determinant.
 template <int dim>
@@ -173,8 +159,9 @@ class CurvedCellDerivatives {
   std::vector<Vector<dim, double>> gradient;
   std::vector<Block<dim, double>> hessian;
 
-  CurvedCellDerivatives(const CellRule<dim>& rule, const CellNodes<dim>& nodes, HessianModel model,
-                        HessianBlocks blocks)
+  /// bending_weight: 0 for linear cells.
+  CurvedCellDerivatives(const CellRule<dim>& rule, const CellNodes<dim>& nodes,
+                        double bending_weight, HessianModel model, HessianBlocks blocks)
       : gradient(rule.n_nodes()),
         hessian(n_node_pairs(rule.n_nodes())),
         rule_(rule),
@@ -195,6 +182,8 @@ class CurvedCellDerivatives {
             hessian[node_pair(n, p, q)].entries[e] += sum_of(sum.entries[e]);
         }
     }
+    if (bending_weight > 0.0)
+      Bending<dim>(rule, nodes).add_derivatives(bending_weight, model, blocks, gradient, hessian);
   }
 
  private:
@@ -286,8 +275,9 @@ CompressedRows<NodeIndex> all_nodes_of_cells(const Topology& topology) {
 }  // namespace
 
 template <int dim>
-CurvedObjective<dim>::CurvedObjective(std::shared_ptr<const Topology> topology)
+CurvedObjective<dim>::CurvedObjective(std::shared_ptr<const Topology> topology, double straightness)
     : topology_(std::move(topology)),
+      straightness_(straightness),
       cells_(all_nodes_of_cells(*topology_)),
       sums_(*topology_, free_nodes_of_second_order(*topology_), cells_) {
   rule_of_cells_.reserve(topology_->n_cells());
@@ -316,9 +306,10 @@ double CurvedObjective<dim>::cell_value(CellIndex cell,
     const Lanes square = squared_inverse_mean_ratio<dim>(shape.squared_norm(), shape.determinant);
     sum += shape.determinant > 0.0 ? rule.weights(group) * square : Lanes{} + infinite;
   }
-  const double total = sum_of(sum);
+  double total = sum_of(sum);
   if (!(total < infinite)) return infinite;
   if (!is_curved(cell)) return total;
+  if (straightness_ > 0.0) total += straightness_ * Bending<dim>(rule, nodes).value();
   std::vector<Point<dim>> points;
   for (const NodeIndex i : cells_[cell]) points.push_back(coordinates[i]);
   return is_proven_valid(std::span<const Point<dim>>(points)) ? total : infinite;
@@ -347,7 +338,7 @@ void CurvedObjective<dim>::derivatives(std::span<const Point<dim>> coordinates, 
           sums.add(
               SingleCell{cells_[c]},
               CurvedCellDerivatives<dim>(*rule_of_cells_[c], CellNodes<dim>(cells_[c], coordinates),
-                                         model, sums.blocks));
+                                         is_curved(c) ? straightness_ : 0.0, model, sums.blocks));
       },
       gradient, hessian);
 }

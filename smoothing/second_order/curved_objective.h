@@ -20,16 +20,21 @@ namespace smoothfem {
 /// cells whose corners are all fixed, one of them for another reason.
 std::vector<NodeIndex> free_nodes_of_second_order(const Topology& topology);
 
-/// The objective of mesh optimization by shape on curved cells, a sum over cells. Each adds the
-/// mean of f^2 over the ideal cell,
+/// The objective of mesh optimization on curved cells, a sum over cells of
 ///
+///   mean(f^2) + straightness mean(|S - S'|^2) / |mean(S)|^2,
 ///   f = |S|^2 / (dim det(S)^(2/dim)),   S = J W^-1,
 ///
 /// with the Jacobian J of the cell's mapping from the reference element, that of the ideal cell W,
-/// and the inverse mean ratio f of inverse_mean_ratio.h. The mean is a sum over the points of
-/// reference_rules.h. It is infinite if det J is not positive at one of these points, or if a cell
-/// of second order is not proven valid (jacobian_bounds.h). Affine cells have the same f everywhere
-/// and add as much as in ShapeObjective.
+/// the inverse mean ratio f of inverse_mean_ratio.h, and S' of the cell with the same corners and
+/// straight edges. Means over the ideal cell are sums over the points of reference_rules.h. The
+/// objective is infinite if det J is not positive at one of these points, or if a cell of second
+/// order is not proven valid (jacobian_bounds.h). Affine cells have the same f everywhere and add
+/// as much as in ShapeObjective.
+///
+/// The first term sees shapes of angles only: f is 1 everywhere also for a conformal mapping. The
+/// second one, the bending, is 0 for straight cells. It holds the second derivatives of the mapping
+/// down, and with them the error of isoparametric interpolation.
 ///
 /// Linear cells and polygons of the mesh add the mean of f^2 over their corners. They are valid if
 /// det J is positive there, as for all methods.
@@ -39,12 +44,15 @@ std::vector<NodeIndex> free_nodes_of_second_order(const Topology& topology);
 /// optimization paradigm for high-order meshes, SIAM J. Sci. Comput. 41 (2019); for the integral of
 /// the squared distortion over curved cells: Gargallo-Peiro, Roca, Peraire, Sarrate, Optimization
 /// of a regularized distortion measure to generate curved high-order unstructured tetrahedral
-/// meshes, International Journal for Numerical Methods in Engineering 103 (2015).
+/// meshes, International Journal for Numerical Methods in Engineering 103 (2015); for the error:
+/// Ciarlet, Raviart, Interpolation theory over curved elements, with applications to finite element
+/// methods, Computer Methods in Applied Mechanics and Engineering 1 (1972).
 template <int dim>
 class CurvedObjective {
  public:
   /// The unknowns are the coordinates of free_nodes_of_second_order().
-  explicit CurvedObjective(std::shared_ptr<const Topology> topology);
+  /// straightness: at least 0.
+  CurvedObjective(std::shared_ptr<const Topology> topology, double straightness);
   CurvedObjective(const CurvedObjective&) = delete;
   CurvedObjective& operator=(const CurvedObjective&) = delete;
 
@@ -75,6 +83,7 @@ class CurvedObjective {
                     std::span<const Point<dim>> to, double fraction) const;
 
   std::shared_ptr<const Topology> topology_;
+  double straightness_;
   CompressedRows<NodeIndex> cells_;                                     ///< all nodes of each cell
   std::map<std::pair<std::size_t, std::size_t>, CellRule<dim>> rules_;  ///< by corners, midside
   std::vector<const CellRule<dim>*> rule_of_cells_;

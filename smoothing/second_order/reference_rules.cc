@@ -2,9 +2,13 @@
 #include "smoothing/second_order/reference_rules.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <span>
 
+#include "smoothing/mesh/midside_nodes.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/simd/cells.h"
 
@@ -125,7 +129,7 @@ std::vector<WeightedPoint> reference_rule(int dim, std::size_t n_corners) {
 
 template <int dim>
 CellRule<dim>::CellRule(std::size_t n_corners, std::size_t n_midside)
-    : n_nodes_(n_corners + n_midside) {
+    : n_nodes_(n_corners + n_midside), mean_gradients_(n_nodes_, Point<dim>::Zero()) {
   const Eigen::Matrix<double, dim, dim> map = to_ideal<dim>(n_corners);
   std::vector<Point<dim>> gradients(n_nodes_);
   if (n_midside > 0) {
@@ -146,6 +150,7 @@ CellRule<dim>::CellRule(std::size_t n_corners, std::size_t n_midside)
       add_point(1.0 / static_cast<double>(corners.size()), gradients);
     }
   }
+  if (n_midside > 0) set_bending(n_corners);
   fill_group();
 }
 
@@ -157,9 +162,47 @@ void CellRule<dim>::add_point(double weight, const std::vector<Point<dim>>& grad
     gradients_.resize((group + 1) * n_lanes * n_nodes_ * dim);
   }
   weights_[n_points_++] = weight;
-  for (std::size_t i = 0; i < n_nodes_; ++i)
+  for (std::size_t i = 0; i < n_nodes_; ++i) {
+    mean_gradients_[i] += weight * gradients[i];
     for (std::size_t d = 0; d < dim; ++d)
       gradients_[n_lanes * ((group * n_nodes_ + i) * dim + d) + l] = gradients[i][d];
+  }
+}
+
+/// With midside nodes m and the corners c of their places, S - S' is the sum over m of
+/// (x_m - mean_c x_c) grad N_m'.
+template <int dim>
+void CellRule<dim>::set_bending(std::size_t n_corners) {
+  Eigen::MatrixXd from_straight =  // of midside nodes, by all nodes
+      Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(n_nodes_),
+                                static_cast<Eigen::Index>(n_nodes_));
+  std::vector<NodeIndex> nodes(n_nodes_);
+  std::iota(nodes.begin(), nodes.end(), NodeIndex{0});
+  const auto corners = std::span<const NodeIndex>(nodes).first(n_corners);
+  for (const NodeIndex c : corners) from_straight(c, c) = 0.0;
+  for_each_midside_place(dim, corners, std::span<const NodeIndex>(nodes).subspan(n_corners),
+                         [&](const MidsidePlace& place, NodeIndex node) {
+                           const auto end = std::find(place.begin(), place.end(), no_corner);
+                           const bool is_in_hexahedron = place[0] == place[1];
+                           const auto around = is_in_hexahedron
+                                                   ? corners
+                                                   : std::span<const NodeIndex>(place.begin(), end);
+                           for (const NodeIndex c : around)
+                             from_straight(node, c) = -1.0 / static_cast<double>(around.size());
+                         });
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(from_straight.rows(), from_straight.cols());
+  for (std::size_t k = 0; k < n_points_; ++k)
+    for (std::size_t p = n_corners; p < n_nodes_; ++p)
+      for (std::size_t q = n_corners; q < n_nodes_; ++q)
+        for (std::size_t d = 0; d < dim; ++d) {
+          const auto of = [&](std::size_t i) {
+            return gradients_[n_lanes * ((k / n_lanes * n_nodes_ + i) * dim + d) + k % n_lanes];
+          };
+          products(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)) +=
+              weights_[k] * of(p) * of(q);
+        }
+  const Eigen::MatrixXd bending = from_straight.transpose() * products * from_straight;
+  bending_.assign(bending.data(), bending.data() + bending.size());
 }
 
 /// Repeats the last point without weight.

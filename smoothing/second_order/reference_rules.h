@@ -49,12 +49,22 @@ class CellRule {
     return load_lanes(&gradients_[n_lanes * ((group * n_nodes_ + node) * dim + d)]);
   }
 
+  /// Returns the mean of a node's gradients. Mean of S: sum_i x_i mean_gradient(i)'.
+  const Point<dim>& mean_gradient(std::size_t node) const { return mean_gradients_[node]; }
+  /// Returns the factor of x_p . x_q in the mean of |S - S'|^2, for cells of second order. S' is
+  /// the Jacobian of the straight cell: midside nodes are in the mean of the corners of their edge,
+  /// face or cell.
+  double bending(std::size_t p, std::size_t q) const { return bending_[p * n_nodes_ + q]; }
+
  private:
   void add_point(double weight, const std::vector<Point<dim>>& gradients);
   void fill_group();
+  void set_bending(std::size_t n_corners);
 
   std::size_t n_nodes_, n_points_ = 0;
   std::vector<double> weights_, gradients_;
+  std::vector<Point<dim>> mean_gradients_;
+  std::vector<double> bending_;
 };
 
 }  // namespace smoothfem

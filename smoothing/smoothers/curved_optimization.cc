@@ -8,9 +8,10 @@
 namespace smoothfem {
 namespace {
 
-/// Minimizes the sum over cells of the mean of f^2 over the ideal cell, with the inverse mean ratio
-/// f of the cell's mapping (curved_objective.h), over corners and midside nodes, by the feasible
-/// Newton method (feasible_newton.h). The sum is infinite where a curved cell is not proven valid.
+/// Minimizes the sum over cells of the mean of f^2 over the ideal cell and of the weighted bending,
+/// with the inverse mean ratio f of the cell's mapping (curved_objective.h), over corners and
+/// midside nodes, by the feasible Newton method (feasible_newton.h). The sum is infinite where a
+/// curved cell is not proven valid.
 template <int dim>
 class CurvedOptimization final : public Smoother<dim> {
  public:
@@ -18,6 +19,9 @@ class CurvedOptimization final : public Smoother<dim> {
 
   Parameters parameters() override {
     Parameters all = newton_parameters_.list("a cell's mapping at a point");
+    all.push_back({"straightness",
+                   "weight of the bending of cells; 0: angles alone count, and edges inside bend",
+                   &straightness_, 0.0, 1e9});
     all.push_back({"max_iterations", "largest number of Newton steps", &max_iterations_, 1.0, 1e9});
     return all;
   }
@@ -31,7 +35,7 @@ class CurvedOptimization final : public Smoother<dim> {
   }
 
   void initialize(const SmoothingState<dim>& state) override {
-    objective_.emplace(state.mesh.shared_topology());
+    objective_.emplace(state.mesh.shared_topology(), straightness_);
     newton_.emplace(*objective_, newton_parameters_, state.mesh.coordinates());
   }
 
@@ -54,6 +58,7 @@ class CurvedOptimization final : public Smoother<dim> {
   }
 
   NewtonParameters newton_parameters_;
+  double straightness_ = 100.0;
   int max_iterations_ = 1000;
 
   std::optional<CurvedObjective<dim>> objective_;
@@ -63,8 +68,9 @@ class CurvedOptimization final : public Smoother<dim> {
 const RegisteredMethod registered(
     {.name = "curved-optimization",
      .title = "Curved Optimization",
-     .description = "minimizes the integral of squared inverse mean ratios over curved cells by a "
-                    "feasible Newton method that moves corners and midside nodes",
+     .description =
+         "minimizes the integral of squared inverse mean ratios over curved cells and "
+         "their bending by a feasible Newton method that moves corners and midside nodes",
      .source = "Gargallo-Peiro et al. (2015); Knupp (2012); Dobrev et al. (2019)"},
     single_stage<CurvedOptimization>());
 

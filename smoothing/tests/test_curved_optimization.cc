@@ -26,6 +26,7 @@ using test::grid_mesh;
 using test::GridCells;
 using test::random_curved_mesh;
 
+constexpr double straightness = 3.0;  // both terms count
 constexpr std::array both_kinds{SecondOrderKind::complete, SecondOrderKind::serendipity};
 
 /// A mesh of TRI6 with a node in the middle of each triangle: TRI7.
@@ -107,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Types, ReferenceRules, testing::ValuesIn(second_order_t
 template <int dim>
 void expect_central_differences(Mesh<dim> mesh) {
   constexpr double h = 1e-6;
-  CurvedObjective<dim> objective(mesh.shared_topology());
+  CurvedObjective<dim> objective(mesh.shared_topology(), straightness);
   const auto exact = dense_derivatives(objective, mesh, HessianModel::exact);
   const auto start = mesh.copied_coordinates();
   const double scale = exact.hessian.norm();
@@ -146,7 +147,7 @@ TEST(CurvedObjective, DerivativesAgreeWithCentralDifferences) {
 TEST(CurvedObjective, ConvexModelHasTheGradientAndNoNegativeCurvature) {
   const auto check = []<int dim>(double rounding) {
     for (const auto& mesh : curved_meshes<dim>()) {
-      CurvedObjective<dim> objective(mesh.shared_topology());
+      CurvedObjective<dim> objective(mesh.shared_topology(), straightness);
       const auto exact = dense_derivatives(objective, mesh, HessianModel::exact);
       const auto convex = dense_derivatives(objective, mesh, HessianModel::convex);
       EXPECT_LT((exact.gradient - convex.gradient).norm(), 1e-13 * exact.hessian.norm());
@@ -170,13 +171,14 @@ void expect_value_of_corners(Mesh<dim> corners) {
   const double of_corners =
       ShapeObjective<dim>(corners.shared_topology()).value(std::as_const(corners).coordinates());
   EXPECT_GT(of_corners, 1.02 * static_cast<double>(corners.n_cells()));
-  EXPECT_NEAR(
-      CurvedObjective<dim>(corners.shared_topology()).value(std::as_const(corners).coordinates()),
-      of_corners, 1e-12 * of_corners);
+  EXPECT_NEAR(CurvedObjective<dim>(corners.shared_topology(), straightness)
+                  .value(std::as_const(corners).coordinates()),
+              of_corners, 1e-12 * of_corners);
   for (const auto kind : both_kinds) {
     const Mesh<dim> mesh = with_midside_nodes(corners, kind);
-    EXPECT_NEAR(CurvedObjective<dim>(mesh.shared_topology()).value(mesh.coordinates()), of_corners,
-                1e-12 * of_corners);
+    EXPECT_NEAR(
+        CurvedObjective<dim>(mesh.shared_topology(), straightness).value(mesh.coordinates()),
+        of_corners, 1e-12 * of_corners);
   }
 }
 
@@ -192,9 +194,60 @@ TEST(CurvedObjective, OfAffineCellsIsThatOfTheirCorners) {
     expect_value_of_corners(box_mesh(2, 2, 2, cells));
 }
 
+/// One TRI6 with the corners of the reference triangle. Only the middle of the side between the
+/// second and the third corner moves, by d. Its shape function is 4 x y. With the ideal triangle,
+/// mean(S) = W^-1 + d g', where W^-1 has columns (1, 0) and (-1, 2) / sqrt 3.
+TEST(CurvedObjective, BendingOfATriangleByHand) {
+  CompressedRows<NodeIndex> cells;
+  cells.append(std::array<NodeIndex, 3>{0, 1, 2});
+  const std::vector<Point<2>> corners{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
+  PlanarMesh mesh =
+      with_midside_nodes(PlanarMesh(std::make_shared<const Topology>(2, 3, cells), corners));
+  const NodeIndex middle = mesh.topology().midside_nodes(0)[1];
+  ASSERT_EQ(mesh.coordinates()[middle], Point<2>(0.5, 0.5));
+  const Point<2> d(0.03, 0.05);
+  mesh.coordinates()[middle] += d;
+  // Gradients by the ideal coordinates: (W^-1)' (4 y, 4 x) = (4 y, (8 x - 4 y) / sqrt 3). Means of
+  // x^2, y^2, xy, x over the triangle: 1/6, 1/6, 1/12, 1/3.
+  const double of_gradients = 16.0 / 6.0 + (64.0 / 6.0 + 16.0 / 6.0 - 64.0 / 12.0) / 3.0;
+  const double root = std::sqrt(3.0);
+  Eigen::Matrix2d mean;
+  mean << 1.0, -1.0 / root, 0.0, 2.0 / root;
+  mean += d * Point<2>(4.0 / 3.0, (8.0 - 4.0) / (3.0 * root)).transpose();
+  const double bending = d.squaredNorm() * of_gradients / mean.squaredNorm();
+  const auto value = [&](double weight) {
+    return CurvedObjective<2>(mesh.shared_topology(), weight)
+        .value(std::as_const(mesh).coordinates());
+  };
+  EXPECT_NEAR(value(2.0) - value(0.0), 2.0 * bending, 1e-14);
+}
+
+/// Cells with straight edges do not bend, whatever their shape; others do.
+TEST(CurvedObjective, BendingOfStraightCellsIsZero) {
+  const auto values = []<int dim>(const Mesh<dim>& mesh) {
+    return std::array{CurvedObjective<dim>(mesh.shared_topology(), 0.0).value(mesh.coordinates()),
+                      CurvedObjective<dim>(mesh.shared_topology(), 1e3).value(mesh.coordinates())};
+  };
+  const auto check = [&]<int dim>() {
+    for (const auto kind : both_kinds)
+      for (auto& [name, corners] : test::small_meshes<dim>()) {
+        Mesh<dim> mesh = corners;
+        test::distort(mesh, 0.2, 5);
+        const auto [without, with] = values(with_midside_nodes(mesh, kind));
+        EXPECT_NEAR(with, without, 1e-11 * without) << name;
+      }
+    for (const auto& mesh : curved_meshes<dim>()) {
+      const auto [without, with] = values(mesh);
+      EXPECT_GT(with, 1.01 * without);
+    }
+  };
+  check.template operator()<2>();
+  check.template operator()<3>();
+}
+
 TEST(CurvedObjective, IsInfiniteForCellsWithoutProof) {
   PlanarMesh mesh = four_triangles({1.0, 1.0}, 0.45);
-  const CurvedObjective<2> objective(mesh.shared_topology());
+  const CurvedObjective<2> objective(mesh.shared_topology(), straightness);
   EXPECT_LT(objective.value(mesh.coordinates()), std::numeric_limits<double>::infinity());
   const NodeIndex sagging = mesh.topology().midside_nodes(0)[0];
   mesh.coordinates()[sagging].y() = 0.51;
@@ -204,7 +257,7 @@ TEST(CurvedObjective, IsInfiniteForCellsWithoutProof) {
 TEST(CurvedObjective, IsInfiniteForCellsThatAreInvalidBetweenThePoints) {
   const SecondOrderType type{2, 4, 9};
   PlanarMesh mesh = with_midside_nodes(grid_mesh(1, GridCells::quadrilaterals));
-  const CurvedObjective<2> objective(mesh.shared_topology());
+  const CurvedObjective<2> objective(mesh.shared_topology(), straightness);
   test::Random random(8);
   std::size_t n_between = 0;
   for (int i = 0; i < 400; ++i) {
@@ -225,7 +278,7 @@ TEST(CurvedObjective, IsInfiniteForCellsThatAreInvalidBetweenThePoints) {
 
 TEST(CurvedObjective, LimitsStopBeforeCellsBecomeInvalid) {
   for (const auto& mesh : curved_meshes<2>()) {
-    const CurvedObjective<2> objective(mesh.shared_topology());
+    const CurvedObjective<2> objective(mesh.shared_topology(), straightness);
     auto to = mesh.copied_coordinates();
     test::Random random(3);
     for (const NodeIndex i : objective.unknown_nodes())
@@ -281,12 +334,13 @@ TEST(FreeNodesOfSecondOrder, AreInsideAndNotOfFixedCorners) {
 template <int dim>
 SmoothingResult smooth_by(const std::string& name, Mesh<dim>& mesh) {
   auto method = make_method<dim>(name);
+  if (name == "curved-optimization") method.set("straightness", std::to_string(straightness));
   return smooth(mesh, method);
 }
 
 TEST(CurvedOptimization, IsBetterThanStraightEdgesBelowABulge) {
   PlanarMesh initial = four_triangles({1.0, 0.9}, 0.35);
-  const CurvedObjective<2> objective(initial.shared_topology());
+  const CurvedObjective<2> objective(initial.shared_topology(), straightness);
   PlanarMesh curved = initial;
   const SmoothingResult result = smooth_by("curved-optimization", curved);
   EXPECT_EQ(result.quality.q_min, mesh_quality(curved).q_min);
@@ -301,11 +355,12 @@ TEST(CurvedOptimization, IsBetterThanStraightEdgesBelowABulge) {
 
 template <int dim>
 void expect_descent_by_inner_nodes(const Mesh<dim>& initial) {
-  CurvedObjective<dim> objective(initial.shared_topology());
+  CurvedObjective<dim> objective(initial.shared_topology(), straightness);
   std::vector<bool> may_move(initial.n_nodes(), false);
   for (const NodeIndex i : objective.unknown_nodes()) may_move[i] = true;
   Mesh<dim> mesh = initial;
   auto method = make_method<dim>("curved-optimization");
+  method.set("straightness", std::to_string(straightness));
   double last = objective.value(initial.coordinates());
   const double first = last;
   smooth(mesh, method, [&](const IterationRecord& record, const Mesh<dim>& now) {
