@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers of the page on curved elements: the studies `curved` and `curved-straight`."""
+"""Numbers of the page on curved elements: the studies `curved`, `curved-angles` and `curved-straight`."""
 
 from collections import Counter
 
@@ -12,7 +12,7 @@ from ..results.smoothing import read_provenance
 from .blocks import table
 from .reference import geometric_mean, spread, tables_of
 
-CURVED, STRAIGHT = "curved", "curved-straight"
+CURVED, ANGLES, STRAIGHT = "curved", "curved-angles", "curved-straight"
 ERRORS = {"h1_error": "H1", "l2_error": "L2"}
 WHOLE = {"curved-optimization": "`curved-optimization`", "angles-alone": "By angles alone, it"}  # move midside nodes, too
 LEAST_CHANGE = 0.01  # of a ratio from 1, by the criteria of the page
@@ -21,7 +21,10 @@ LEAST_CHANGE = 0.01  # of a ratio from 1, by the criteria of the page
 def blocks(reference):
     """The blocks of the page."""
     found = {study: errors_of(reference / study) for study in (CURVED, STRAIGHT)}
-    titles = {method["name"]: method["title"] for method in entries(read_provenance(reference / CURVED / "provenance.json"), "methods")}
+    for mesh, errors in errors_of(reference / ANGLES).items():
+        found[CURVED].setdefault(mesh, {}).update(errors)
+    titles = {method["name"]: method["title"] for study in (CURVED, ANGLES)
+              for method in entries(read_provenance(reference / study / "provenance.json"), "methods")}
     return {"answer": answer(found), "counts": counts(found[CURVED], titles), "methods": methods(found[CURVED], titles), "edges": edges(found),
             "orders": orders(reference), "straightened": straightened()}
 
