@@ -30,7 +30,7 @@ KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresh
 FIELDS = ("field", "field-volume", "field-large")
 SETS = ("collection-hexalab", "collection-mesquite", "collection-sfepy")  # of published meshes
 # Run at their default scale.
-COLLECTIONS_AS_THEY_ARE = (*SETS, "orders", "orders-volume", "energy-corners", "energy-field", "energy-field-quadratic", "energy-robust", "curved", "curved-straight")
+COLLECTIONS_AS_THEY_ARE = (*SETS, "orders", "orders-volume", "energy-corners", "energy-field", "energy-field-quadratic", "energy-robust", "curved", "curved-angles", "curved-straight")
 COLLECTIONS = (*FIELDS, *COLLECTIONS_AS_THEY_ARE)
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv")
 TABLES = ("*.md", "*.csv")  # tables of collections: they need iterations.csv and metrics.csv, which are too large to keep
