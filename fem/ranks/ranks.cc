@@ -4,6 +4,9 @@
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/partitioner.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
@@ -56,9 +59,49 @@ void Ranks::on_root(const std::function<void()>& work) const {
         "the problem cannot be solved on the mesh; see the error of the first process");
 }
 
+void Ranks::together(const std::function<void()>& work) const {
+  std::string error;
+  bool failed = false;
+  try {
+    work();
+  } catch (const InputError& found) {
+    error = found.what();
+    failed = true;
+  }
+  double first = failed ? rank_ : size_;
+  min({&first, 1});
+  const int source = static_cast<int>(first);
+  if (source == size_) return;
+  int length = static_cast<int>(error.size());
+  if (size_ > 1) {
+    MPI_Bcast(&length, 1, MPI_INT, source, communicator_);
+    error.resize(static_cast<std::size_t>(length));
+    MPI_Bcast(error.data(), length, MPI_CHAR, source, communicator_);
+  }
+  throw InputError(error);
+}
+
 void Ranks::sum(std::span<double> values) const {
   if (size_ > 1)
     MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                  communicator_);
+}
+
+void Ranks::sum(std::span<std::int64_t> values) const {
+  if (size_ > 1)
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T,
+                  MPI_SUM, communicator_);
+}
+
+void Ranks::min(std::span<double> values) const {
+  if (size_ > 1)
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MIN,
+                  communicator_);
+}
+
+void Ranks::max(std::span<double> values) const {
+  if (size_ > 1)
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
                   communicator_);
 }
 
@@ -73,7 +116,7 @@ std::size_t Ranks::sum(std::size_t value) const {
 }
 
 double Ranks::max(double value) const {
-  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+  max({&value, 1});
   return value;
 }
 
@@ -108,6 +151,29 @@ void Ranks::scatter_items(const void* all, const std::vector<int>& counts, std::
   const auto offsets = offsets_of(counts);
   MPI_Scatterv(all, counts.data(), offsets.data(), type.get(), values, static_cast<int>(n_values),
                type.get(), 0, communicator_);
+}
+
+std::vector<std::size_t> Ranks::exchange_counts(const std::vector<std::size_t>& counts) const {
+  std::vector<std::size_t> received(counts.size());
+  MPI_Alltoall(counts.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, communicator_);
+  return received;
+}
+
+void Ranks::exchange_items(const void* sent, const std::vector<std::size_t>& counts, void* received,
+                           const std::vector<std::size_t>& received_counts,
+                           std::size_t item_size) const {
+  const ItemType type(item_size);
+  constexpr std::size_t most = std::numeric_limits<int>::max();
+  const auto total = [](const std::vector<std::size_t>& numbers) {
+    return std::accumulate(numbers.begin(), numbers.end(), std::size_t{0});
+  };
+  if (any(std::max(total(counts), total(received_counts)) > most))
+    throw InputError("a process would exchange more than 2^31 items; use more processes");
+  const std::vector<int> n_sent(counts.begin(), counts.end()),
+      n_received(received_counts.begin(), received_counts.end());
+  const auto from = offsets_of(n_sent), to = offsets_of(n_received);
+  MPI_Alltoallv(sent, n_sent.data(), from.data(), type.get(), received, n_received.data(),
+                to.data(), type.get(), communicator_);
 }
 
 struct Halo::Partition {

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <numeric>
@@ -30,13 +31,21 @@ class Ranks {
 
   /// Compute sums and the largest value over all ranks, the same on each.
   void sum(std::span<double> values) const;
+  void sum(std::span<std::int64_t> values) const;
+  void min(std::span<double> values) const;
+  void max(std::span<double> values) const;
   double sum(double value) const;
   std::size_t sum(std::size_t value) const;
   double max(double value) const;
+  /// True if this holds on any rank.
+  bool any(bool value) const { return sum(std::size_t{value}) > 0; }
   /// Returns the sum over the ranks before this one.
   std::size_t exclusive_scan(std::size_t value) const;
   /// Calls work() on the root. If it throws an InputError there, all ranks throw one. Collective.
   void on_root(const std::function<void()>& work) const;
+  /// Calls work() on each rank. If it throws an InputError on some, all ranks throw that of the
+  /// first one. Collective.
+  void together(const std::function<void()>& work) const;
   /// Sends the root's value to all ranks.
   template <class T>
   void broadcast(T& value) const {
@@ -61,6 +70,32 @@ class Ranks {
     gather_items(values.data(), counts, sizeof(T), all.data(), values.size());
     return all;
   }
+  /// Sends to[r] to each rank r; returns the items that each rank has sent to this one, in the
+  /// order of the ranks. Frees `to`. Collective.
+  template <class T>
+  std::vector<std::vector<T>> exchange(std::vector<std::vector<T>> to) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (size_ == 1) return to;
+    std::vector<std::size_t> counts;
+    for (const auto& items : to) counts.push_back(items.size());
+    std::vector<T> sent;
+    sent.reserve(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+    for (auto& items : to) {
+      sent.insert(sent.end(), items.begin(), items.end());
+      std::vector<T>().swap(items);
+    }
+    const auto received_counts = exchange_counts(counts);
+    std::vector<T> received(
+        std::accumulate(received_counts.begin(), received_counts.end(), std::size_t{0}));
+    exchange_items(sent.data(), counts, received.data(), received_counts, sizeof(T));
+    std::size_t first = 0;
+    for (std::size_t r = 0; r < received_counts.size(); ++r) {
+      const auto begin = received.begin() + static_cast<std::ptrdiff_t>(first);
+      to[r].assign(begin, begin + static_cast<std::ptrdiff_t>(received_counts[r]));
+      first += received_counts[r];
+    }
+    return to;
+  }
   /// Distributes the root's values, one rank's after the other's, n_values for this one.
   template <class T>
   std::vector<T> scatter(const std::vector<T>& all, std::size_t n_values) const {
@@ -72,6 +107,9 @@ class Ranks {
 
  private:
   void broadcast_bytes(void* bytes, std::size_t n_bytes) const;
+  std::vector<std::size_t> exchange_counts(const std::vector<std::size_t>& counts) const;
+  void exchange_items(const void* sent, const std::vector<std::size_t>& counts, void* received,
+                      const std::vector<std::size_t>& received_counts, std::size_t item_size) const;
   /// Returns every rank's count, on the root.
   std::vector<int> gather_counts(std::size_t n_values) const;
   void gather_items(const void* values, const std::vector<int>& counts, std::size_t item_size,

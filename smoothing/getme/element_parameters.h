@@ -20,6 +20,7 @@ struct ElementParameters<2> {
   int scaling = mean_edge_length;
 
   enum Scaling { mean_edge_length, neighbour_mean_size };
+  bool fits_neighbours() const { return scaling == neighbour_mean_size; }
 
   Parameters parameters() {
     return {{"lambda", "subdivision ratio of the polygon sides (Section 2.3)", &lambda, 0.0, 1.0,
@@ -45,6 +46,7 @@ template <>
 struct ElementParameters<3> {
   enum TetrahedronTransformation { opposite_face_normals, dual_element };
   enum Scaling { mean_edge_length, mean_volume, neighbour_mean_size };
+  bool fits_neighbours() const { return scaling == neighbour_mean_size; }
 
   SigmaRange tetrahedron, pyramid, prism, hexahedron;
   double rho;  ///< relaxation, in (0, 1]

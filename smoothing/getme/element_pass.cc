@@ -2,13 +2,16 @@
 #include "smoothing/getme/element_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "smoothing/geometry/cell_edges.h"
 #include "smoothing/getme/neighbour_sizes.h"
 #include "smoothing/getme/node_sums.h"
 #include "smoothing/getme/regularize.h"
+#include "smoothing/parts/mesh_part.h"
 #include "smoothing/quality/target_corners.h"
 
 namespace smoothfem {
@@ -83,6 +86,49 @@ Lanes weighted(Vector3<double> position, double weight) {
   return Lanes{weight * position.x, weight * position.y, weight * position.z, weight};
 }
 
+/// Rounds the sums' terms in a part of a mesh, so that sums are exact: they do not depend on the
+/// order of the cells. Terms are weighted movements there. Source: Demmel, Nguyen, Fast
+/// reproducible floating-point summation, ARITH 2013.
+class TermRounding {
+ public:
+  /// length, weight: limits of sums of movements and of weights. dim: of the space.
+  TermRounding(double length, double weight, int dim) {
+    for (int d = 0; d < dim; ++d) shift_[d] = shift_of(length);
+    shift_[dim] = shift_of(weight);
+  }
+
+  Lanes operator()(Lanes terms) const { return (terms + shift_) - shift_; }
+  std::array<Lanes, n_lanes> operator()(std::array<Lanes, n_lanes> terms) const {
+    for (Lanes& term : terms) term = (*this)(term);
+    return terms;
+  }
+
+ private:
+  /// Adding this number rounds smaller ones to multiples that the sum of all holds exactly.
+  static double shift_of(double limit) { return std::ldexp(1.5, std::ilogb(limit) + 2); }
+
+  Lanes shift_{};
+};
+
+/// Returns the limits for the elements of all parts. Collective.
+template <int dim, int spacedim>
+TermRounding make_rounding(const Mesh<dim, spacedim>& mesh) {
+  constexpr double longest_movement = 16.0;  // in lengths of the longest edge, with a margin
+  double longest = 0.0, most_cells = 0.0;
+  const auto x = mesh.coordinates();
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+    const auto nodes = mesh.topology().cell_nodes(c);
+    for_each_edge(dim, nodes.size(), [&](std::size_t a, std::size_t b) {
+      longest = std::max(longest, (x[nodes[a]] - x[nodes[b]]).squaredNorm());
+    });
+  }
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    most_cells = std::max(most_cells, static_cast<double>(mesh.topology().node_cells(i).size()));
+  std::array largest{std::sqrt(longest), most_cells};
+  mesh.topology().part()->max(std::span<double>(largest));
+  return {longest_movement * largest[0] * largest[1], 2.0 * largest[1], spacedim};
+}
+
 /// Weight of an element with a target: the inverse square of the target's width, so that deviations
 /// count in units of each element's own width. Otherwise small elements would follow large ones.
 template <int dim, class Real>
@@ -102,6 +148,7 @@ struct Pass {
   Weighting weighting;
   Fits fits;
   HasTargets has_targets;
+  const TermRounding* rounding = nullptr;  ///< of parts of a mesh
 
   const CellTargets<dim>* targets() const { return has_targets ? mesh.targets() : nullptr; }
 
@@ -124,13 +171,20 @@ struct Pass {
       for (auto& node : transformed) node = map(node);
       weight = weight * target_weight(map);
     }
+    if (rounding) [[unlikely]]
+      unrolled<n>([&](auto k) { transformed[k] = transformed[k] - corners[k]; });
     unrolled<n>([&](auto k) {
-      const auto terms = weighted(transformed[k], weight);
+      const auto terms = rounded(weighted(transformed[k], weight));
       batch.for_each_lane([&](std::size_t l) {
         if (wanted(batch.nodes[l][k])) NodeSums::add(sums, batch.nodes[l][k], terms[l]);
       });
     });
     return quality;
+  }
+
+  template <class Terms>
+  Terms rounded(Terms terms) const {
+    return rounding ? (*rounding)(terms) : terms;
   }
 
   template <std::size_t n>
@@ -171,8 +225,12 @@ struct Pass {
         for (std::size_t k = 0; k < nodes.size(); ++k)
           transformed[k] = weighting.chosen(quality, transformed[k], corners[k]);
         map_to_target(mesh, cell, transformed);
+        if (rounding)
+          for (std::size_t k = 0; k < nodes.size(); ++k)
+            transformed[k] = transformed[k] - vector_of(x[nodes[k]]);
         for (std::size_t k = 0; k < nodes.size(); ++k)
-          if (wanted(nodes[k])) NodeSums::add(sums, nodes[k], weighted(transformed[k], weight));
+          if (wanted(nodes[k]))
+            NodeSums::add(sums, nodes[k], rounded(weighted(transformed[k], weight)));
       });
     });
     return quality;
@@ -230,12 +288,21 @@ struct ElementPass<dim, spacedim>::Tables {
   const double* prescribed = nullptr;
   std::vector<double> unit_sizes;  ///< of all cells, if the mesh has targets
   NodeSums sums;
+  std::optional<TermRounding> rounding;    ///< of parts of a mesh
   std::vector<PartialQuality> qualities;   ///< of each block of cells
   std::vector<std::uint8_t> marked_nodes;  ///< nodes whose sums have to be added again
   std::vector<std::uint8_t> marked_cells;  ///< cells that add to these sums
 
   /// True if element steps take target sizes that are measured on the mesh.
   bool measures() const { return element->fits_neighbours() && prescribed == nullptr; }
+
+  const TermRounding* rounding_of_parts() const { return rounding ? &*rounding : nullptr; }
+
+  /// Returns the quality of the mesh after all blocks. Collective in a part of a mesh.
+  MeshQuality quality(const Topology& topology, const std::vector<double>& cell_quality) const {
+    return topology.part() ? mesh_quality(topology, cell_quality)
+                           : mesh_quality(qualities, topology.n_cells());
+  }
 
   /// Returns the nodes of all cells around some nodes, without nodes that are already marked; marks
   /// them.
@@ -271,6 +338,8 @@ void ElementPass<dim, spacedim>::prepare(const Mesh<dim, spacedim>& mesh,
   tables_->unit_sizes.assign(mesh.targets() ? mesh.n_cells() : 0, 1.0);
   tables_->prescribed = mesh.targets() ? tables_->unit_sizes.data() : nullptr;
   tables_->sums.prepare(topology);
+  tables_->rounding.reset();
+  if (topology.part()) tables_->rounding.emplace(make_rounding(mesh));
   tables_->qualities.resize(topology.blocks().size());
   sums_ = tables_->sums[0];
 }
@@ -288,8 +357,10 @@ MeshQuality ElementPass<dim, spacedim>::transform_all(SmoothingState<dim, spaced
   with_scaling<dim, spacedim>(tables_->element->fits_neighbours(), [&](auto fits) {
     const auto compute = [&](auto has_targets) {
       const Pass<dim, spacedim, QualityWeighting, decltype(fits), decltype(has_targets)> pass{
-          state.mesh, *tables_->element, tables_->sizes, tables_->prescribed, {eta},
-          fits,       has_targets};
+          state.mesh,     *tables_->element,
+          tables_->sizes, tables_->prescribed,
+          {eta},          fits,
+          has_targets,    tables_->rounding_of_parts()};
       tables_->sums.compute([&](std::size_t b, double* sums) {
         add_block(pass, topology.blocks()[b], state.cell_quality.data(), sums);
         tables_->qualities[b] = PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
@@ -297,7 +368,8 @@ MeshQuality ElementPass<dim, spacedim>::transform_all(SmoothingState<dim, spaced
     };
     state.mesh.targets() == nullptr ? compute(std::false_type{}) : compute(true);
   });
-  return mesh_quality(tables_->qualities, topology.n_cells());
+  base_ = tables_->rounding ? state.mesh.coordinates().data() : nullptr;
+  return tables_->quality(topology, state.cell_quality);
 }
 
 template <int dim, int spacedim>
@@ -329,14 +401,16 @@ MeshQuality ElementPass<dim, spacedim>::transform_around(SmoothingState<dim, spa
                                                    tables_->prescribed,
                                                    {eta},
                                                    tables_->element->fits_neighbours(),
-                                                   state.mesh.targets() != nullptr};
+                                                   state.mesh.targets() != nullptr,
+                                                   tables_->rounding_of_parts()};
   tables_->sums.compute_some(
       changed_sums, cells,
       [&](std::size_t b, std::span<const CellIndex> cells_of_block, double* sums) {
         add_to_marked(pass, cells_of_block, marked_nodes, sums);
         tables_->qualities[b] = PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
       });
-  return mesh_quality(tables_->qualities, topology.n_cells());
+  base_ = tables_->rounding ? state.mesh.coordinates().data() : nullptr;
+  return tables_->quality(topology, state.cell_quality);
 }
 
 template <int dim, int spacedim>

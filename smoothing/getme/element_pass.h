@@ -26,7 +26,8 @@ namespace smoothfem {
 ///   p_i = weight > 0 ? sum / weight : p_i;  // Eq. 4.2
 ///
 /// This class computes several elements at a time. Results are bitwise identical for every number
-/// of threads.
+/// of threads. In a part of a mesh the sums are those of the movements p' - p, rounded so that they
+/// do not depend on the parts.
 template <int dim, int spacedim = dim>
 class ElementPass {
  public:
@@ -64,7 +65,7 @@ class ElementPass {
   Point<spacedim> mean(NodeIndex node) const {
     Point<spacedim> mean;
     for (int d = 0; d < spacedim; ++d) mean[d] = sums(node)[d] / sums(node)[spacedim];
-    return mean;
+    return base_ == nullptr ? mean : base_[node] + mean;
   }
 
  private:
@@ -73,6 +74,8 @@ class ElementPass {
 
   std::unique_ptr<Tables> tables_;
   const double* sums_ = nullptr;  ///< four for each node: weighted coordinates and weight
+  /// In a part of a mesh: the coordinates that the transformed elements are relative to.
+  const Point<spacedim>* base_ = nullptr;
 };
 
 }  // namespace smoothfem

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "smoothing/laplacian/gauss_seidel_sweep.h"
+#include "smoothing/laplacian/laplacian_sweep.h"
 
 namespace smoothfem {
 

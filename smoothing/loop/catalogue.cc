@@ -81,13 +81,34 @@ bool moves_midside_nodes(const Method<dim, spacedim>& method) {
   return any;
 }
 
-template <int dim>
-std::vector<std::string> methods_with_targets() {
+template <int dim, int spacedim>
+bool works_in_parts(const Method<dim, spacedim>& method) {
+  return std::all_of(method.stages.begin(), method.stages.end(),
+                     [](const auto& stage) { return stage->traits().works_in_parts; });
+}
+
+namespace {
+
+/// Returns the names of the methods that a condition holds for.
+template <int dim, int spacedim, class Condition>
+std::vector<std::string> methods_with(const Condition& condition) {
   std::vector<std::string> names;
   for (const auto& entry : registry().all())
-    if (supports_mesh_kind<dim>(entry.name) && takes_targets(make_method<dim>(entry.name)))
+    if (supports_mesh_kind<dim, spacedim>(entry.name) &&
+        condition(make_method<dim, spacedim>(entry.name)))
       names.push_back(entry.name);
   return names;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<std::string> methods_with_targets() {
+  return methods_with<dim, dim>(takes_targets<dim, dim>);
+}
+template <int dim, int spacedim>
+std::vector<std::string> methods_for_parts() {
+  return methods_with<dim, spacedim>(works_in_parts<dim, spacedim>);
 }
 
 template <int dim, int spacedim>
@@ -158,6 +179,8 @@ template std::vector<std::string> methods_with_targets<3>();
 
 #define SMOOTHFEM_INSTANTIATE(...)                                         \
   template bool takes_targets(const Method<__VA_ARGS__>&);                 \
+  template bool works_in_parts(const Method<__VA_ARGS__>&);                \
+  template std::vector<std::string> methods_for_parts<__VA_ARGS__>();      \
   template bool keeps_constraints(const Method<__VA_ARGS__>&);             \
   template bool moves_midside_nodes(const Method<__VA_ARGS__>&);           \
   template bool supports_mesh_kind<__VA_ARGS__>(const std::string&, bool); \

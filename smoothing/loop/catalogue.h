@@ -105,6 +105,10 @@ bool keeps_constraints(const Method<dim, spacedim>& method);
 template <int dim, int spacedim>
 bool takes_targets(const Method<dim, spacedim>& method);
 
+/// True if every stage works in parts of a mesh (SmootherTraits).
+template <int dim, int spacedim>
+bool works_in_parts(const Method<dim, spacedim>& method);
+
 /// True if every stage moves midside nodes by itself (SmootherTraits). Throws InputError if some
 /// stages do and others move corners only.
 template <int dim, int spacedim>
@@ -113,6 +117,9 @@ bool moves_midside_nodes(const Method<dim, spacedim>& method);
 /// Returns the names of the methods that take targets, in the order of the catalogue.
 template <int dim>
 std::vector<std::string> methods_with_targets();
+/// Returns the names of the methods that work in parts of a mesh, in the order of the catalogue.
+template <int dim, int spacedim>
+std::vector<std::string> methods_for_parts();
 
 /// The functions below take the name of a registered method, or of a method in a file
 /// (method_scheme.h).

@@ -2,6 +2,7 @@
 #include "smoothing/loop/invalid_node_reset.h"
 
 #include "smoothing/mesh/node_constraints.h"
+#include "smoothing/parts/shared_coordinates.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/second_order/curved_quality.h"
 
@@ -74,8 +75,11 @@ std::vector<NodeIndex> reset_nodes_of_invalid_cells(
   std::vector<std::uint32_t> facets = facets_out_of_bound(mesh);
   std::vector<NodeIndex> all_moved;
   while (true) {
-    const auto moved = reset_nodes(mesh, previous, bad, facets);
-    if (moved.empty()) return all_moved;  // the remaining cells were invalid before
+    auto moved = reset_nodes(mesh, previous, bad, facets);
+    const auto elsewhere = changed_copies(mesh);
+    moved.insert(moved.end(), elsewhere.begin(), elsewhere.end());
+    if (!holds_anywhere(mesh.topology(), !moved.empty()))
+      return all_moved;  // the remaining cells were invalid before
     all_moved.insert(all_moved.end(), moved.begin(), moved.end());
     const auto changed = cells_to_check(mesh, bad, moved);
     bad.clear();

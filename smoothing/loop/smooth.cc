@@ -2,6 +2,7 @@
 #include "smoothing/loop/smooth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -14,25 +15,47 @@
 #include "smoothing/mesh/node_constraints.h"
 #include "smoothing/mesh/reordering.h"
 #include "smoothing/mesh/volume_elements.h"
+#include "smoothing/parts/order_free_sum.h"
+#include "smoothing/parts/shared_coordinates.h"
 #include "smoothing/second_order/smooth_second_order.h"
 
 namespace smoothfem {
 
 namespace {
 
+/// Calls visit(length) for the edges of every cell; in a part of a mesh, of the cells it owns.
+template <int dim, int spacedim, class Visit>
+void for_each_edge_length(const Mesh<dim, spacedim>& mesh, const Visit& visit) {
+  const MeshPart* const part = mesh.topology().part();
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+    if (part && !part->owns_cell(c)) continue;
+    const auto nodes = mesh.topology().cell_nodes(c);
+    for_each_edge(dim, nodes.size(), [&](std::size_t a, std::size_t b) {
+      visit((mesh.coordinates()[nodes[b]] - mesh.coordinates()[nodes[a]]).norm());
+    });
+  }
+}
+
 /// Returns the mean over the edges of every cell. As in the thesis' stopping rule, an inner edge
 /// counts once for each of its cells.
 template <int dim, int spacedim>
 double mean_edge_length(const Mesh<dim, spacedim>& mesh) {
-  double sum = 0.0;
   std::size_t n_edges = 0;
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
-    const auto nodes = mesh.topology().cell_nodes(c);
-    for_each_edge(dim, nodes.size(), [&](std::size_t a, std::size_t b) {
-      sum += (mesh.coordinates()[nodes[b]] - mesh.coordinates()[nodes[a]]).norm();
+  if (const MeshPart* part = mesh.topology().part()) {
+    double longest = 0.0;
+    for_each_edge_length(mesh, [&](double length) { longest = std::max(longest, length); });
+    OrderFreeSum sum(std::ilogb(part->max(longest)) + 1);
+    for_each_edge_length(mesh, [&](double length) {
+      sum.add(length);
       ++n_edges;
     });
+    return sum.total(*part) / static_cast<double>(part->sum(n_edges));
   }
+  double sum = 0.0;
+  for_each_edge_length(mesh, [&](double length) {
+    sum += length;
+    ++n_edges;
+  });
   return sum / static_cast<double>(n_edges);
 }
 
@@ -94,7 +117,7 @@ class SmoothingRun {
   StageResult run_stage(Smoother<dim, spacedim>& smoother) {
     const SmootherTraits traits = smoother.traits();
     const StoppingRule stopping = smoother.stopping();
-    if (traits.needs_valid_mesh && quality_.n_invalid > 0) require_valid(in_original_order());
+    if (traits.needs_valid_mesh && quality_.n_invalid > 0) refuse_invalid();
     StageResult result{.name = std::string(smoother.name()),
                        .why_stopped = "reached max_iterations"};
     std::optional<BestMesh<spacedim>> best;
@@ -120,7 +143,7 @@ class SmoothingRun {
       complete_quality(traits, report);
       result.iterations += report.n_counted;
       observe(result.name, result.iterations, report);
-      if (interruption()) throw Interrupted{};
+      if (holds_anywhere(state_.mesh.topology(), interruption())) throw Interrupted{};
       history.add(quality_, is_best);
       result.n_last_reset = report.n_reset;
       if (auto why = history.why_stop(stopping, report, state_.initial_quality.q_star_min,
@@ -148,8 +171,9 @@ class SmoothingRun {
       evaluate_quality();
       if (quality_.n_invalid == 0 && quality_.q_min >= floor) return;
       report.n_made_invalid = quality_.n_invalid;
-      report.n_reset =
-          reset_nodes_of_invalid_cells(state_.mesh, initial_, state_.cell_quality, floor).size();
+      report.n_reset = count_in_whole(
+          state_.mesh.topology(),
+          reset_nodes_of_invalid_cells(state_.mesh, initial_, state_.cell_quality, floor));
       quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
     }
     n_floor_reset_ = report.n_reset;
@@ -164,17 +188,25 @@ class SmoothingRun {
   }
 
  private:
+  void refuse_invalid() {
+    if (state_.mesh.topology().part() == nullptr) require_valid(in_original_order());
+    throw InputError(std::to_string(quality_.n_invalid) +
+                     " cells of the mesh are invalid; 'smoothfem check' names them, and "
+                     "'smoothfem smooth --untangle' repairs them, both on one rank");
+  }
+
   /// Reorders large meshes. Small meshes fit the cache in any order, and without reordering keep
   /// the published numbers' order of sums. Constraints refer to node numbers, and problems refer to
   /// boundary parts by labels, and targets refer to cell numbers; such meshes are not reordered.
-  /// Neither are meshes of second order, whose midside nodes a new order leaves out.
+  /// Neither are meshes of second order, whose midside nodes a new order leaves out, and parts.
   void reorder(const Method<dim, spacedim>& method) {
     constexpr std::size_t min_nodes = 16384;
     // Sweeps in the mesh's own order also need nodes stored in that order. With the nodes of a
     // neighbourhood stored together they took twice the time (Laplace, 580,000 tetrahedra as Gmsh
     // numbers them).
     if (state_.mesh.constraints() || state_.mesh.targets() || solver_ ||
-        state_.mesh.topology().midside() || state_.mesh.n_nodes() < min_nodes ||
+        state_.mesh.topology().midside() || state_.mesh.topology().part() ||
+        state_.mesh.n_nodes() < min_nodes ||
         any_stage(method, [](const auto& stage) { return stage.traits().needs_node_order; }))
       return;
     if constexpr (dim == spacedim) {
@@ -208,8 +240,9 @@ class SmoothingRun {
       evaluate_quality();
       report.n_made_invalid = quality_.n_invalid;
       if (quality_.n_invalid > 0 || has_facet_bound(state_.mesh)) {
-        report.n_reset +=
-            reset_nodes_of_invalid_cells(state_.mesh, previous_, state_.cell_quality).size();
+        report.n_reset += count_in_whole(
+            state_.mesh.topology(),
+            reset_nodes_of_invalid_cells(state_.mesh, previous_, state_.cell_quality));
         quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
       }
     }
@@ -279,6 +312,15 @@ void require_targets_taken(const Mesh<dim, spacedim>& mesh, const Method<dim, sp
 }
 
 template <int dim, int spacedim>
+void require_parts_taken(const Mesh<dim, spacedim>& mesh, const Method<dim, spacedim>& method) {
+  if (mesh.topology().part() == nullptr) return;
+  if (any_stage(method, [](const auto& stage) { return !stage.traits().works_in_parts; }))
+    throw InputError("method " + method.info.name +
+                     " needs the whole mesh on one rank; methods for a mesh in parts are " +
+                     joined(methods_for_parts<dim, spacedim>()));
+}
+
+template <int dim, int spacedim>
 void require_problem(const Method<dim, spacedim>& method) {
   if (method.info.needs_problem() && !method.problem)
     throw InputError("method " + method.info.name +
@@ -313,14 +355,25 @@ class ScaledMesh {
   int exponent_;
 };
 
+/// Returns the exponent that extreme coordinates are scaled by, 0 for ordinary ones.
+template <int dim, int spacedim>
+int extreme_exponent_of_whole(const Mesh<dim, spacedim>& mesh) {
+  const int own = extreme_exponent(mesh.coordinates());
+  const MeshPart* const part = mesh.topology().part();
+  if (part && part->any(own != 0))
+    throw InputError("a mesh in parts has coordinates that are too large or too small; scale it");
+  return own;
+}
+
 /// Smooths a mesh whose midside nodes, if it has some, are nodes like others.
 template <int dim, int spacedim>
 SmoothingResult smooth_nodes(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                              const Observer<dim, spacedim>& observer) {
   require_constraints_kept(mesh, method);
   require_targets_taken(mesh, method);
+  require_parts_taken(mesh, method);
   require_problem(method);
-  const int own_exponent = extreme_exponent(std::as_const(mesh).coordinates());
+  const int own_exponent = extreme_exponent_of_whole(mesh);
   require_ordinary_numbers(own_exponent);
   // Scaling would move the mesh off its constraints, its targets and its problem.
   const int exponent =

@@ -64,6 +64,10 @@ struct SmootherTraits {
   /// True if the step moves the midside nodes of meshes of second order by itself: it gets the
   /// whole mesh. For other methods these nodes follow the corners.
   bool moves_midside_nodes = false;
+  /// True if the step works in parts of a mesh (smoothing/parts/mesh_part.h): it decides on its own
+  /// nodes by the cells around them, in an order that does not depend on the parts, and copies of
+  /// nodes are up to date after it. Its report is that of the whole mesh.
+  bool works_in_parts = false;
 };
 
 /// Report of one step to the loop.

@@ -128,6 +128,8 @@ struct FileContent {
   bool operator==(const FileContent&) const = default;
 };
 
+class MeshPart;  // smoothing/parts/mesh_part.h
+
 /// Labels of a file for nodes and cells, copied from input to output unchanged.
 struct MeshLabels {
   std::vector<int> cell_tags;        ///< physical tag of each cell; empty if the file has none
@@ -138,6 +140,7 @@ struct MeshLabels {
   std::vector<std::size_t> cell_ids;  ///< the file's number of each cell; empty if it has none
   std::shared_ptr<const FileContent> content{};   ///< null if the file says nothing else
   std::shared_ptr<const MidsideNodes> midside{};  ///< null if all elements are linear
+  std::shared_ptr<const MeshPart> part{};         ///< null if this is the whole mesh
 
   /// Does not compare the content.
   bool operator==(const MeshLabels& other) const {

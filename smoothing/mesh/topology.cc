@@ -12,6 +12,7 @@
 #include "smoothing/base/parallel.h"
 #include "smoothing/mesh/parallel_rows.h"
 #include "smoothing/mesh/volume_elements.h"
+#include "smoothing/parts/mesh_part.h"
 
 namespace smoothfem {
 
@@ -227,7 +228,7 @@ void Topology::build_boundary(const CompressedRows<CellIndex>& node_cells) {
 void Topology::build_fixed(std::vector<FixedReasons> reasons) {
   fixed_ = std::move(reasons);
   for (NodeIndex i = 0; i < n_nodes(); ++i)
-    if (!fixed_[i]) free_nodes_.push_back(i);
+    if (!fixed_[i] && (part() == nullptr || part()->owns_node(i))) free_nodes_.push_back(i);
   cell_has_free_node_.resize(n_cells());
   for (CellIndex c = 0; c < n_cells(); ++c) {
     const auto nodes = cells_[c];

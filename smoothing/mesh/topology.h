@@ -59,6 +59,9 @@ class Topology {
     return midside() ? midside()->of_cells[cell] : std::span<const NodeIndex>();
   }
 
+  /// Returns what this part of a distributed mesh shares with others; null for a whole mesh.
+  const MeshPart* part() const { return labels_.part.get(); }
+
   /// Returns the cells that use a node.
   std::span<const CellIndex> node_cells(NodeIndex node) const { return cells_by_node()[node]; }
   /// Returns the cells that use at least one of these nodes, ascending.
@@ -89,6 +92,7 @@ class Topology {
   FixedReasons reasons_to_stay(NodeIndex node) const {
     return static_cast<FixedReasons>(fixed_[node] & ~bit(FixedReason::midside));
   }
+  /// Returns the nodes that may move, ascending; in a part of a mesh, of these its own.
   const std::vector<NodeIndex>& free_nodes() const { return free_nodes_; }
   /// True if at least one node of the cell is free. q*_min takes these cells only.
   bool has_free_node(CellIndex cell) const { return cell_has_free_node_[cell] != 0; }

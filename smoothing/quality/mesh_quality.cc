@@ -8,6 +8,7 @@
 #include "smoothing/base/option_text.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/geometry/cell_size.h"
+#include "smoothing/parts/order_free_sum.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/target_corners.h"
 #include "smoothing/second_order/curved_quality.h"
@@ -67,6 +68,44 @@ MeshQuality mesh_quality(const std::vector<PartialQuality>& blocks, std::size_t 
           .n_invalid = n_invalid};
 }
 
+namespace {
+
+/// Returns the quality of the whole mesh, from the cells that each part owns. Its sums do not
+/// depend on the parts.
+MeshQuality quality_of_parts(const Topology& topology, const std::vector<double>& cell_quality) {
+  const MeshPart& part = *topology.part();
+  struct OfBlock {
+    std::array<double, 2> least{none, none};  // of all cells, and of those with a free node
+    OrderFreeSum sum;
+    std::size_t n_invalid = 0;
+  };
+  std::vector<OfBlock> blocks(topology.blocks().size());
+  parallel_for(blocks.size(), [&](std::size_t b) {
+    for (CellIndex c = topology.blocks()[b].first; c < topology.blocks()[b].last; ++c) {
+      if (!part.owns_cell(c)) continue;
+      auto& [least, sum, n_invalid] = blocks[b];
+      const double q = cell_quality[c];
+      least[0] = std::min(least[0], q);
+      if (topology.has_free_node(c)) least[1] = std::min(least[1], q);
+      sum.add(q);
+      n_invalid += q > 0.0 ? 0 : 1;
+    }
+  });
+  OfBlock all;
+  for (const OfBlock& block : blocks) {
+    for (std::size_t k = 0; k < 2; ++k) all.least[k] = std::min(all.least[k], block.least[k]);
+    all.sum.add(block.sum);
+    all.n_invalid += block.n_invalid;
+  }
+  part.min(all.least);
+  return {.q_min = all.least[0],
+          .q_star_min = all.least[1] == none ? all.least[0] : all.least[1],
+          .q_mean = all.sum.total(part) / static_cast<double>(part.n_cells_of_whole()),
+          .n_invalid = part.sum(all.n_invalid)};
+}
+
+}  // namespace
+
 template <int dim, int spacedim>
 std::vector<double> cell_mean_ratios(const Mesh<dim, spacedim>& mesh) {
   std::vector<double> quality;
@@ -97,10 +136,12 @@ MeshQuality compute_cell_mean_ratios(const Mesh<dim, spacedim>& mesh,
     compute_cells(mesh, topology.blocks()[b], cell_quality.data());
     parts[b] = PartialQuality(topology, cell_quality, topology.blocks()[b]);
   });
+  if (topology.part()) return quality_of_parts(topology, cell_quality);
   return mesh_quality(parts, mesh.n_cells());
 }
 
 MeshQuality mesh_quality(const Topology& topology, const std::vector<double>& cell_quality) {
+  if (topology.part()) return quality_of_parts(topology, cell_quality);
   std::vector<PartialQuality> parts(topology.blocks().size());
   parallel_for(parts.size(), [&](std::size_t b) {
     parts[b] = PartialQuality(topology, cell_quality, topology.blocks()[b]);

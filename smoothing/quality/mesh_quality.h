@@ -32,7 +32,8 @@ MeshQuality compute_cell_mean_ratios(const Mesh<dim, spacedim>& mesh,
                                      std::vector<double>& cell_quality);
 
 /// Returns the quality of a mesh. cell_quality: one number for each cell of the topology. If no
-/// cell has a free node, q_star_min = q_min.
+/// cell has a free node, q_star_min = q_min. Of a part of a mesh, all functions that return a
+/// MeshQuality compute that of the whole, and are collective.
 MeshQuality mesh_quality(const Topology& topology, const std::vector<double>& cell_quality);
 template <int dim, int spacedim>
 MeshQuality mesh_quality(const Mesh<dim, spacedim>& mesh);

@@ -5,6 +5,7 @@
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/mesh/node_constraints.h"
+#include "smoothing/parts/shared_coordinates.h"
 
 namespace smoothfem {
 namespace {
@@ -26,7 +27,10 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
     return all;
   }
   SmootherTraits traits() const override {
-    return {.quality_use = QualityUse::smoother, .keeps_constraints = true, .takes_targets = true};
+    return {.quality_use = QualityUse::smoother,
+            .keeps_constraints = true,
+            .takes_targets = true,
+            .works_in_parts = !element_.fits_neighbours()};
   }
   StoppingRule stopping() const override { return stopping_.rule(); }
 
@@ -44,8 +48,8 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
     report.n_made_invalid = report.quality->n_invalid;
     if (report.quality->n_invalid > 0 || has_facet_bound(state.mesh)) {
       const auto nodes = reset_nodes_of_invalid_cells(state.mesh, previous_, state.cell_quality);
-      if (!nodes.empty()) report.quality = pass_.transform_around(state, nodes, eta_);
-      report.n_reset = nodes.size();
+      report.n_reset = count_in_whole(state.mesh.topology(), nodes);
+      if (report.n_reset > 0) report.quality = pass_.transform_around(state, nodes, eta_);
     }
     return report;
   }
@@ -68,6 +72,7 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
     else
       move([&](NodeIndex i) { return allowed_position(mesh, i, pass_.mean(i)); });
     mesh.swap_coordinates(previous_);
+    update_copies(mesh);
   }
 
   ElementParameters<dim> element_ = simultaneous_elements<dim>();

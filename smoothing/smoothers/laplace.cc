@@ -19,7 +19,7 @@ class Laplace final : public Smoother<dim, spacedim> {
   }
 
   StepReport step(SmoothingState<dim, spacedim>& state) override {
-    return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) -> Point<spacedim> {
+    return laplacian_sweep(state.mesh, [&](std::size_t, NodeIndex i) -> Point<spacedim> {
       return mean_of_neighbours(state.mesh, i) - state.mesh.coordinates()[i];
     });
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/base/parallel.h"
-#include "smoothing/laplacian/gauss_seidel_sweep.h"
+#include "smoothing/laplacian/laplacian_sweep.h"
 #include "smoothing/loop/catalogue.h"
+#include "smoothing/parts/shared_coordinates.h"
 #include "smoothing/quality/local_quality.h"
 
 namespace smoothfem {
@@ -15,7 +16,9 @@ class SmartLaplace final : public Smoother<dim, spacedim> {
  public:
   std::string_view name() const override { return "smart-laplace"; }
   Parameters parameters() override { return stopping_.parameters(); }
-  SmootherTraits traits() const override { return {.keeps_constraints = true}; }
+  SmootherTraits traits() const override {
+    return {.keeps_constraints = true, .works_in_parts = true};
+  }
   StoppingRule stopping() const override { return stopping_.rule(); }
 
   void initialize(const SmoothingState<dim, spacedim>& state) override {
@@ -31,6 +34,7 @@ class SmartLaplace final : public Smoother<dim, spacedim> {
     });
     for (std::size_t i = 0; i < free_nodes.size(); ++i)
       state.mesh.coordinates()[free_nodes[i]] = positions_[i];
+    update_copies(state.mesh);
     return {};
   }
 

@@ -72,9 +72,8 @@ class WeightedLaplace final : public Smoother<dim> {
   }
 
   StepReport step(SmoothingState<dim>& state) override {
-    std::size_t position = 0;
-    return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) {
-      return cells_around_.with_cells(position++, [&](const auto& cells) {
+    return laplacian_sweep(state.mesh, [&](std::size_t position, NodeIndex i) {
+      return cells_around_.with_cells(position, [&](const auto& cells) {
         return movement(cells, state.mesh.coordinates().data(), i);
       });
     });

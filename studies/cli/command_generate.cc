@@ -9,6 +9,7 @@
 #include "meshes/preparation/prepare_mesh.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/piece_commands.h"
 #include "studies/cli/standard_streams.h"
 
 namespace smoothfem {
@@ -23,6 +24,7 @@ struct GenerateArguments {
   int sweeps = 1, order = 1;
   std::uint64_t seed = 1;
   bool quiet = false, list = false;
+  BoxArguments box;
 };
 
 template <int dim, int spacedim>
@@ -59,6 +61,12 @@ void generate(GenerateArguments arguments) {
     throw InputError("which domain? 'smoothfem generate --list' shows the available ones");
   if (arguments.out.empty())
     throw InputError("name the mesh to write, for example by '-o " + arguments.domain + ".vtu'");
+  if (arguments.domain == "box") {
+    arguments.box.out = arguments.out;
+    arguments.box.seed = arguments.seed;
+    arguments.box.quiet = arguments.quiet;
+    return generate_box(arguments.box);
+  }
   if (!(arguments.distort_to >= 0.0 && arguments.distort_to < 1.0))
     throw InputError("--distort-to is " + std::to_string(arguments.distort_to) +
                      ", but a mean quality lies between 0 (not distorted) and 1");
@@ -129,6 +137,20 @@ void smoothfem_add_generate_command(CLI::App& app) {
   command->add_option("--seed", arguments->seed, "seed of generation and distortion (default: 1)")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--quiet", arguments->quiet, "print nothing but warnings");
+  command->add_option(
+      "--cells", arguments->box.cells,
+      "of the domain box, which is written in pieces (.pvtu): cells along its sides, "
+      "for example 100,100,100");
+  command
+      ->add_option("--split", arguments->box.split,
+                   "of the domain box: tetrahedra or triangles (default), or hexahedra or "
+                   "quadrilaterals, which are not split")
+      ->check(CLI::IsMember({"tetrahedra", "triangles", "hexahedra", "quadrilaterals"}));
+  command->add_option(
+      "--displacement", arguments->box.displacement,
+      "of the domain box: largest displacement of nodes inside, in edges; below 1/6");
+  command->add_option("--pieces", arguments->box.n_pieces, "of the domain box: number of files")
+      ->check(CLI::Range(1, 9999));
   add_examples(*command,
                {"smoothfem generate gear --elements quadrilaterals --distort-to 0.418 -o gear.msh",
                 "smoothfem generate flange --elements hexahedra -o flange.vtu"});

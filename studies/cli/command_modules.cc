@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <dlfcn.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "smoothing/base/input_error.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/piece_commands.h"
 
 namespace smoothfem {
 
@@ -12,20 +14,39 @@ namespace {
 
 constexpr const char* study_commands = "smoothfem_study_commands.so";
 constexpr const char* generate_command = "smoothfem_generate_command.so";
+constexpr const char* piece_commands = "smoothfem_piece_commands.so";
 
-/// Returns the function that a module has for a command. The module stays loaded, because its
-/// libraries have registered the things that users name. Its symbols are global, because Open MPI
-/// loads components that need them.
-void (*added_by_module(const Command& command))(CLI::App&) {
-  const auto file = std::filesystem::canonical("/proc/self/exe").parent_path() / command.module;
+/// Returns a function of a module. The module stays loaded, because its libraries have registered
+/// the things that users name. Its symbols are global, because Open MPI loads components that need
+/// them.
+template <class Function>
+Function* function_of_module(const char* name, const std::string& function) {
+  const auto file = std::filesystem::canonical("/proc/self/exe").parent_path() / name;
   void* module = dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL);
-  void* add =
-      module ? dlsym(module, ("smoothfem_add_" + command.name + "_command").c_str()) : nullptr;
-  if (!add) throw InputError(std::string(dlerror()) + "; install the program anew");
-  return reinterpret_cast<void (*)(CLI::App&)>(add);
+  void* found = module ? dlsym(module, function.c_str()) : nullptr;
+  if (!found) throw InputError(std::string(dlerror()) + "; install the program anew");
+  return reinterpret_cast<Function*>(found);
 }
 
 }  // namespace
+
+bool works_on_pieces(const std::string& mesh) {
+  const char* const n_processes = std::getenv("OMPI_COMM_WORLD_SIZE");
+  return std::filesystem::path(mesh).extension() == ".pvtu" ||
+         (n_processes != nullptr && std::atoi(n_processes) > 1);
+}
+void smooth_pieces(const SmoothArguments& arguments) {
+  function_of_module<void(const SmoothArguments&)>(piece_commands,
+                                                   "smoothfem_smooth_pieces")(arguments);
+}
+void report_pieces(const std::string& mesh, bool as_json) {
+  function_of_module<void(const std::string&, bool)>(piece_commands, "smoothfem_report_pieces")(
+      mesh, as_json);
+}
+void generate_box(const BoxArguments& arguments) {
+  function_of_module<void(const BoxArguments&)>(piece_commands,
+                                                "smoothfem_generate_box")(arguments);
+}
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> all{
@@ -59,7 +80,8 @@ void add_command(CLI::App& app, const Command& command, bool with_options) {
   if (command.add)
     command.add(app);
   else if (with_options)
-    added_by_module(command)(app);
+    function_of_module<void(CLI::App&)>(command.module,
+                                        "smoothfem_add_" + command.name + "_command")(app);
   else
     add_subcommand(app, command.name);
 }

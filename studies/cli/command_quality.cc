@@ -21,6 +21,7 @@
 #include "smoothing/surface/surface_constraints.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/mesh_notes.h"
+#include "studies/cli/piece_commands.h"
 #include "studies/cli/plots.h"
 #include "studies/cli/smooth_notes.h"
 #include "studies/cli/standard_streams.h"
@@ -290,6 +291,13 @@ void report(const QualityArguments& arguments, const Mesh<dim, spacedim>& mesh,
 }
 
 void report_quality(QualityArguments arguments) {
+  if (works_on_pieces(arguments.in)) {
+    if (!arguments.histogram.empty() || !arguments.mark.empty() || !arguments.metrics.empty())
+      throw InputError(
+          "--histogram, --mark and --metrics do not work on a mesh in pieces; leave them out, or "
+          "use one file and one process");
+    return report_pieces(arguments.in, arguments.json);
+  }
   if (!arguments.histogram.empty()) require_histogram_path(arguments.histogram);
   if (!(arguments.below >= 0.0 && arguments.below <= 1.0))
     throw InputError("--below is " + std::to_string(arguments.below) +

@@ -16,6 +16,7 @@
 #include "smoothing/second_order/raise_order.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/mesh_notes.h"
+#include "studies/cli/piece_commands.h"
 #include "studies/cli/smooth_notes.h"
 #include "studies/cli/smooth_report.h"
 #include "studies/cli/standard_streams.h"
@@ -232,6 +233,7 @@ void smooth_file(SmoothArguments arguments) {
   if (!arguments.fix_rule.empty()) arguments.fix = parse_fixed_nodes_rule(arguments.fix_rule);
   arguments.has_target = !arguments.target.empty();
   if (arguments.in.empty()) throw CLI::RequiredError("in");
+  if (works_on_pieces(arguments.in)) return smooth_pieces(arguments);
   const WriteTarget target = parse_write_target(arguments.to);
   if (arguments.out.empty()) arguments.out = default_output(arguments.in, target.extension);
   if (arguments.n_threads > 0) set_n_threads(arguments.n_threads);

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fem/ranks/ranks.h"
+#include "smoothing/mesh/fixed_reason.h"
+#include "smoothing/mesh/point.h"
+
+namespace smoothfem {
+
+/// Number of a node or cell in the whole mesh.
+using GlobalIndex = std::uint32_t;
+
+/// What any rank can ask about the nodes of a distributed mesh. Rank r keeps the entries of the
+/// numbers from n r / P to n (r+1) / P - 1, with n numbers and P ranks.
+template <class Entry>
+class NodeDirectory {
+ public:
+  /// Collective, as all functions here. n: one more than the largest number of a node.
+  NodeDirectory(const Ranks& ranks, std::size_t n) : ranks_(ranks), n_(n) {
+    entries_.resize(first_of(ranks.rank() + 1) - first_of(ranks.rank()));
+  }
+
+  std::size_t n() const { return n_; }
+  /// Entries that this rank keeps, and the number of the first one.
+  std::vector<Entry>& entries() { return entries_; }
+  std::size_t first() const { return first_of(ranks_.rank()); }
+
+  /// Calls merge(kept entry, given entry, rank it comes from) for the entries that ranks give for
+  /// some numbers, in the order of the ranks.
+  template <class Merge>
+  void give(std::span<const GlobalIndex> numbers, std::span<const Entry> given,
+            const Merge& merge) {
+    struct Item {
+      GlobalIndex number;
+      Entry entry;
+    };
+    std::vector<std::vector<Item>> to(static_cast<std::size_t>(ranks_.size()));
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      to[keeper_of(numbers[i])].push_back({numbers[i], given[i]});
+    const auto from = ranks_.exchange(std::move(to));
+    for (std::size_t r = 0; r < from.size(); ++r)
+      for (const Item& item : from[r])
+        merge(entries_[item.number - first()], item.entry, static_cast<int>(r));
+  }
+
+  /// Returns the entries of some numbers.
+  std::vector<Entry> ask(std::span<const GlobalIndex> numbers) const {
+    std::vector<std::vector<GlobalIndex>> to(static_cast<std::size_t>(ranks_.size()));
+    for (const GlobalIndex number : numbers) to[keeper_of(number)].push_back(number);
+    const auto asked = ranks_.exchange(std::move(to));
+    std::vector<std::vector<Entry>> answers(asked.size());
+    for (std::size_t r = 0; r < asked.size(); ++r) {
+      answers[r].reserve(asked[r].size());
+      for (const GlobalIndex number : asked[r]) answers[r].push_back(entries_[number - first()]);
+    }
+    const auto from = ranks_.exchange(std::move(answers));
+    std::vector<std::size_t> next(from.size(), 0);
+    std::vector<Entry> result;
+    result.reserve(numbers.size());
+    for (const GlobalIndex number : numbers) {
+      const std::size_t r = keeper_of(number);
+      result.push_back(from[r][next[r]++]);
+    }
+    return result;
+  }
+
+ private:
+  std::size_t first_of(int rank) const {
+    return n_ * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks_.size());
+  }
+  std::size_t keeper_of(GlobalIndex number) const {
+    auto rank =
+        static_cast<int>(std::size_t{number} * static_cast<std::size_t>(ranks_.size()) / n_);
+    while (number < first_of(rank)) --rank;
+    while (number >= first_of(rank + 1)) ++rank;
+    return static_cast<std::size_t>(rank);
+  }
+
+  Ranks ranks_;
+  std::size_t n_;
+  std::vector<Entry> entries_;
+};
+
+/// A node of the whole mesh, as the directory keeps it.
+template <int dim>
+struct NodeEntry {
+  std::array<double, static_cast<std::size_t>(dim)> x{};
+  FixedReasons reasons = 0;
+  int owner = -1;
+
+  Point<dim> point() const { return Point<dim>(x.data()); }
+};
+template <int dim>
+NodeEntry<dim> node_entry(const Point<dim>& point, FixedReasons reasons) {
+  NodeEntry<dim> entry{.reasons = reasons};
+  for (std::size_t d = 0; d < dim; ++d) entry.x[d] = point[static_cast<Eigen::Index>(d)];
+  return entry;
+}
+
+}  // namespace smoothfem

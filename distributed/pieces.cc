@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "distributed/pieces.h"
+
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <sstream>
+
+#include "meshes/io/atomic_file.h"
+#include "meshes/io/mesh_assembly.h"
+#include "meshes/io/mesh_file.h"
+#include "meshes/io/vtk/xml_tags.h"
+#include "smoothing/mesh/fixed_nodes.h"
+
+namespace smoothfem {
+
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string() + ": cannot be read; check its name");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Returns the files that a .pvtu file names.
+std::vector<std::filesystem::path> named_files(const std::filesystem::path& path) {
+  const std::string text = text_of(path);
+  XmlTags tags(path.string(), text);
+  std::vector<std::filesystem::path> files;
+  while (tags.next()) {
+    if (tags.tag().name != "Piece" || !tags.tag().begins) continue;
+    const auto source = tags.tag().attribute("Source");
+    if (!source) tags.fail("a piece has no Source");
+    const std::filesystem::path file(*source);
+    files.push_back(file.is_absolute() ? file : path.parent_path() / file);
+  }
+  if (files.empty())
+    throw InputError(path.string() +
+                     ": names no piece; it must be a VTK file of the type "
+                     "PUnstructuredGrid");
+  return files;
+}
+
+/// What a rank keeps of one piece until all are read.
+struct ReadPiece {
+  std::vector<std::int64_t> numbers{};  ///< of its nodes; empty if the file has none
+  std::vector<Point<3>> points{};
+  std::vector<FixedReasons> reasons{};
+  int dim = 0;
+  bool has_marks = false;
+};
+
+const MeshField* field_with_role(const FileContent& content, const std::string& role) {
+  const auto name = content.node_roles.find(role);
+  if (name == content.node_roles.end()) return nullptr;
+  for (const MeshField& field : content.node_fields)
+    if (field.name == name->second) return &field;
+  return nullptr;
+}
+
+std::vector<std::int64_t> node_numbers(const MeshParts& parts) {
+  if (const MeshField* ids = field_with_role(parts.content, "GlobalIds"))
+    if (const auto* numbers = std::get_if<std::vector<std::int64_t>>(&ids->values)) return *numbers;
+  return {parts.node_ids.begin(), parts.node_ids.end()};
+}
+
+/// Takes the parts of a piece; appends its cells with node indices that begin at first_node.
+ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::size_t first_node,
+                     CompressedRows<GlobalIndex>& corners, std::vector<int>& tags) {
+  ReadPiece piece{.dim = dimension_of(parts)};
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(path.string() + ": " + what);
+  };
+  if (piece.dim == 2 && !is_planar(parts))
+    refuse("surface meshes in pieces cannot be smoothed; use one file and one process");
+  const ElementList& cells = parts.elements[static_cast<std::size_t>(piece.dim)];
+  if (!cells.midside.empty())
+    refuse("meshes of second order in pieces cannot be smoothed; use one file and one process");
+  std::vector<GlobalIndex> row;
+  for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
+    row.clear();
+    for (const NodeIndex node : cells.nodes[c])
+      row.push_back(static_cast<GlobalIndex>(first_node + node));
+    corners.append(row);
+    tags.push_back(cells.tags.empty() ? 0 : cells.tags[c]);
+  }
+  piece.numbers = node_numbers(parts);
+  piece.reasons.assign(parts.coordinates.size(), 0);
+  for (std::size_t d = 0; d < static_cast<std::size_t>(piece.dim); ++d) {
+    const ElementList& labelled = parts.elements[d];
+    for (std::size_t e = 0; e < labelled.nodes.size(); ++e)
+      if (!labelled.tags.empty() && labelled.tags[e] != 0)
+        for (const NodeIndex node : labelled.nodes[e])
+          piece.reasons[node] |= bit(FixedReason::interface);
+  }
+  piece.has_marks = parts.fixed && !parts.fixes_boundary_as_well;
+  if (parts.fixed)
+    for (std::size_t i = 0; i < parts.fixed->size(); ++i)
+      if ((*parts.fixed)[i]) piece.reasons[i] |= bit(FixedReason::marked);
+  piece.points = std::move(parts.coordinates);
+  return piece;
+}
+
+/// Gives nodes of equal coordinates the number of their first appearance in the pieces.
+void number_by_coordinates(const Ranks& ranks, std::vector<ReadPiece>& pieces) {
+  struct Node {
+    std::array<double, 3> x;
+    std::int64_t number;
+
+    auto operator<=>(const Node&) const = default;
+  };
+  std::size_t n = 0;
+  for (const ReadPiece& piece : pieces) n += piece.points.size();
+  auto next = static_cast<std::int64_t>(ranks.exclusive_scan(n));
+  const auto keeper = [&](const Node& node) {
+    std::size_t hash = 0;
+    for (const double x : node.x) hash = 31 * hash + std::hash<double>()(x);
+    return (hash >> 7) % static_cast<std::size_t>(ranks.size());
+  };
+  std::vector<std::vector<Node>> sent(static_cast<std::size_t>(ranks.size()));
+  std::vector<std::size_t> keepers;
+  for (const ReadPiece& piece : pieces)
+    for (const auto& p : piece.points) {
+      const Node node{{p.x() + 0.0, p.y() + 0.0, p.z() + 0.0}, next++};  // no negative zeros
+      keepers.push_back(keeper(node));
+      sent[keepers.back()].push_back(node);
+    }
+  const auto received = ranks.exchange(std::move(sent));
+  std::vector<Node> all;
+  for (const auto& nodes : received) all.insert(all.end(), nodes.begin(), nodes.end());
+  std::sort(all.begin(), all.end());
+  std::vector<std::vector<std::int64_t>> answers(received.size());
+  for (std::size_t r = 0; r < received.size(); ++r)
+    for (const Node& node : received[r])
+      answers[r].push_back(std::lower_bound(all.begin(), all.end(), Node{node.x, 0})->number);
+  const auto numbers = ranks.exchange(std::move(answers));
+  std::vector<std::size_t> at(numbers.size(), 0);
+  std::size_t i = 0;
+  for (ReadPiece& piece : pieces) {
+    piece.numbers.clear();
+    for (std::size_t k = 0; k < piece.points.size(); ++k, ++i)
+      piece.numbers.push_back(numbers[keepers[i]][at[keepers[i]]++]);
+  }
+}
+
+template <int dim>
+ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& path,
+                             const std::vector<std::vector<GlobalIndex>>& numbers,
+                             std::vector<ReadPiece> pieces, CompressedRows<GlobalIndex> corners,
+                             std::vector<int> tags, bool fixes_boundary) {
+  double largest = 0.0;
+  for (const auto& of_piece : numbers)
+    for (const GlobalIndex number : of_piece) largest = std::max<double>(largest, number);
+  ScatteredMesh<dim> mesh{.n_cells = ranks.sum(corners.size()),
+                          .corners = std::move(corners),
+                          .tags = std::move(tags),
+                          .nodes = NodeDirectory<NodeEntry<dim>>(
+                              ranks, static_cast<std::size_t>(ranks.max(largest)) + 1),
+                          .fixes_boundary = fixes_boundary};
+  if (mesh.n_cells > std::numeric_limits<GlobalIndex>::max())
+    throw InputError(path.string() + ": has " + std::to_string(mesh.n_cells) +
+                     " cells, but at most 4294967295 are possible");
+  const std::size_t first = ranks.exclusive_scan(mesh.corners.size());
+  for (std::size_t c = 0; c < mesh.corners.size(); ++c)
+    mesh.cells.push_back(static_cast<GlobalIndex>(first + c));
+  std::vector<GlobalIndex> given;
+  std::vector<NodeEntry<dim>> entries;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    given.insert(given.end(), numbers[k].begin(), numbers[k].end());
+    for (std::size_t i = 0; i < pieces[k].points.size(); ++i)
+      entries.push_back(
+          node_entry<dim>(pieces[k].points[i].template head<dim>(), pieces[k].reasons[i]));
+    pieces[k] = {};
+  }
+  std::size_t n_torn = 0;
+  constexpr int known = -2;
+  mesh.nodes.give(given, entries, [&](NodeEntry<dim>& kept, const NodeEntry<dim>& node, int) {
+    n_torn += kept.owner == known && kept.x != node.x;
+    kept.x = node.x;
+    kept.reasons |= node.reasons;
+    kept.owner = known;
+  });
+  if (const std::size_t n = ranks.sum(n_torn); n > 0)
+    throw InputError(path.string() + ": " + std::to_string(n) +
+                     " nodes have other coordinates in one piece than in another; write the pieces "
+                     "anew");
+  return mesh;
+}
+
+}  // namespace
+
+Pieces::Pieces(const Ranks& ranks, const std::filesystem::path& path) : ranks_(ranks), path_(path) {
+  ranks_.together([&] { files_ = named_files(path); });
+}
+
+std::size_t Pieces::first_piece() const {
+  return files_.size() * static_cast<std::size_t>(ranks_.rank()) /
+         static_cast<std::size_t>(ranks_.size());
+}
+std::size_t Pieces::last_piece() const {
+  return files_.size() * static_cast<std::size_t>(ranks_.rank() + 1) /
+         static_cast<std::size_t>(ranks_.size());
+}
+
+std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
+  std::vector<ReadPiece> pieces;
+  CompressedRows<GlobalIndex> corners;  // by positions among the nodes of all pieces
+  std::vector<int> tags;
+  ranks_.together([&] {
+    std::size_t n_nodes = 0;
+    for (std::size_t p = first_piece(); p < last_piece(); ++p) {
+      pieces.push_back(take_piece(files_[p], read_mesh_parts(files_[p]), n_nodes, corners, tags));
+      n_nodes += pieces.back().points.size();
+    }
+  });
+  const auto any = [&](const auto& holds) {
+    return ranks_.any(std::any_of(pieces.begin(), pieces.end(), holds));
+  };
+  const bool any_planar = any([](const ReadPiece&p) { return p.dim == 2; }),
+             any_volume = any([](const ReadPiece&p) { return p.dim == 3; }),
+             any_marks = any([](const ReadPiece&p) { return p.has_marks; });
+  if (any_planar && any_volume)
+    throw InputError(path_.string() + ": some pieces are planar and others have volume cells");
+  if (any([](const ReadPiece& p) { return p.numbers.size() != p.points.size(); }))
+    number_by_coordinates(ranks_, pieces);
+  if (any([](const ReadPiece& p) {
+        return std::any_of(p.numbers.begin(), p.numbers.end(), [](std::int64_t number) {
+          return number < 0 || number >= std::numeric_limits<GlobalIndex>::max();
+        });
+      }))
+    throw InputError(path_.string() + ": numbers of nodes must be from 0 to 4294967294");
+  nodes_.clear();
+  std::vector<GlobalIndex> all;
+  for (ReadPiece& piece : pieces) {
+    nodes_.emplace_back(piece.numbers.begin(), piece.numbers.end());
+    all.insert(all.end(), nodes_.back().begin(), nodes_.back().end());
+    piece.numbers = {};
+  }
+  {
+    CompressedRows<GlobalIndex> numbered;
+    std::vector<GlobalIndex> row;
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      row.clear();
+      for (const GlobalIndex position : corners[c]) row.push_back(all[position]);
+      numbered.append(row);
+    }
+    corners = std::move(numbered);
+  }
+  const auto make = [&]<int dim>() {
+    return scattered<dim>(ranks_, path_, nodes_, std::move(pieces), std::move(corners),
+                          std::move(tags), !any_marks);
+  };
+  if (any_volume) return make.template operator()<3>();
+  return make.template operator()<2>();
+}
+
+template <int dim>
+void Pieces::write(const std::filesystem::path& out,
+                   const NodeDirectory<NodeEntry<dim>>& directory) const {
+  const auto n_rounds =
+      static_cast<std::size_t>(ranks_.max(static_cast<double>(last_piece() - first_piece())));
+  for (std::size_t k = 0; k < n_rounds; ++k) {
+    const bool has_piece = first_piece() + k < last_piece();
+    const auto entries = directory.ask(has_piece ? std::span<const GlobalIndex>(nodes_[k])
+                                                 : std::span<const GlobalIndex>());
+    ranks_.together([&] {
+      if (!has_piece) return;
+      const std::size_t p = first_piece() + k;
+      MeshFile file = read_mesh(files_[p], {.turns_over = false});
+      auto* const mesh = std::get_if<Mesh<dim>>(&file.mesh);
+      if (mesh == nullptr || mesh->n_nodes() != entries.size())
+        throw InputError(files_[p].string() + ": has changed since it was read");
+      std::vector<FixedReasons> reasons;
+      for (NodeIndex i = 0; i < entries.size(); ++i) {
+        mesh->coordinates()[i] = entries[i].point();
+        reasons.push_back(entries[i].reasons);
+      }
+      write_mesh(piece_file(out, p), with_fixed_nodes(std::move(*mesh), std::move(reasons)));
+    });
+  }
+  ranks_.together([&] {
+    if (!ranks_.is_root()) return;
+    std::vector<std::filesystem::path> written;
+    for (std::size_t p = 0; p < files_.size(); ++p) written.push_back(piece_file(out, p));
+    write_piece_list(out, written);
+  });
+}
+
+std::filesystem::path piece_file(const std::filesystem::path& out, std::size_t piece) {
+  const std::string stem = out.stem().string();
+  char number[32];
+  std::snprintf(number, sizeof number, "_%04zu.vtu", piece);
+  return out.parent_path() / stem / (stem + number);
+}
+
+void write_piece_list(const std::filesystem::path& out,
+                      const std::vector<std::filesystem::path>& pieces) {
+  const std::string text = text_of(pieces.front());
+  XmlTags tags(pieces.front().string(), text);
+  std::ostringstream list;
+  list << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
+          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+          "  <PUnstructuredGrid GhostLevel=\"0\">\n";
+  while (tags.next() && tags.tag().name != "AppendedData") {
+    const XmlTag& tag = tags.tag();
+    const bool is_section =
+        tag.name == "PointData" || tag.name == "CellData" || tag.name == "Points";
+    if (is_section) {
+      list << "    <" << (tag.begins ? "P" : "/P") << tag.name;
+      for (const auto& [name, value] : tag.attributes) list << ' ' << name << "=\"" << value << '"';
+      list << (tag.begins && tag.ends ? "/>\n" : ">\n");
+    } else if (tag.name == "DataArray" && tag.begins &&
+               (tags.parent() == "PointData" || tags.parent() == "CellData" ||
+                tags.parent() == "Points")) {
+      list << "      <PDataArray";
+      for (const auto& [name, value] : tag.attributes)
+        if (name == "Name" || name == "type" || name == "NumberOfComponents")
+          list << ' ' << name << "=\"" << value << '"';
+      list << "/>\n";
+    }
+  }
+  for (const auto& piece : pieces)
+    list << "    <Piece Source=\""
+         << escaped_for_xml(piece.lexically_relative(out.parent_path()).string()) << "\"/>\n";
+  list << "  </PUnstructuredGrid>\n</VTKFile>\n";
+  write_atomically(out, list.str());
+}
+
+template void Pieces::write(const std::filesystem::path&, const NodeDirectory<NodeEntry<2>>&) const;
+template void Pieces::write(const std::filesystem::path&, const NodeDirectory<NodeEntry<3>>&) const;
+
+}  // namespace smoothfem

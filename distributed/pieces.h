@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+#include "distributed/distributed_mesh.h"
+
+namespace smoothfem {
+
+/// A mesh in several files: VTK's .pvtu and the pieces that it names. Each cell is in one piece;
+/// nodes between pieces are in all of these. Cells are numbered in the order of the pieces. Nodes
+/// have the numbers of the array with the role GlobalIds or of `node_id`, from 0 or above, if all
+/// pieces have one of these. Otherwise nodes with equal coordinates are the same, and are numbered
+/// as they first appear.
+///
+/// Rank r reads the pieces from n r / P to n (r+1) / P - 1, one after the other. Each file is read
+/// by one rank.
+class Pieces {
+ public:
+  /// Reads the list of files. Collective. Throws InputError "path:line: ..." on all ranks.
+  Pieces(const Ranks& ranks, const std::filesystem::path& path);
+
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+
+  /// Reads all pieces. The variant is that of their cells' dimension. Collective. Throws
+  /// InputError.
+  std::variant<ScatteredMesh<2>, ScatteredMesh<3>> read() const;
+
+  /// Writes pieces with new coordinates, and all else as it is in the files: out.pvtu, and the
+  /// pieces as out/out_NNNN.vtu. directory: with coordinates and reasons to stay
+  /// (store_coordinates). Collective. Throws InputError.
+  template <int dim>
+  void write(const std::filesystem::path& out,
+             const NodeDirectory<NodeEntry<dim>>& directory) const;
+
+ private:
+  std::size_t first_piece() const;
+  std::size_t last_piece() const;
+
+  Ranks ranks_;
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> files_;
+  /// Numbers of the nodes of each piece of this rank, since read().
+  mutable std::vector<std::vector<GlobalIndex>> nodes_;
+};
+
+/// Writes the file that names the pieces. arrays: those of the first piece. pieces: all of them.
+void write_piece_list(const std::filesystem::path& out,
+                      const std::vector<std::filesystem::path>& pieces);
+
+/// Returns where a piece of out.pvtu lies: out/out_0007.vtu.
+std::filesystem::path piece_file(const std::filesystem::path& out, std::size_t piece);
+
+}  // namespace smoothfem

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/resource.h>
+
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "distributed/box.h"
+#include "distributed/partition.h"
+#include "distributed/pieces.h"
+#include "fem/ranks/mpi_session.h"
+#include "meshes/io/atomic_file.h"
+#include "smoothing/base/interruption.h"
+#include "smoothing/base/parallel.h"
+#include "smoothing/loop/method_scheme.h"
+#include "smoothing/loop/preset.h"
+#include "smoothing/loop/smooth.h"
+#include "studies/cli/commands.h"
+#include "studies/cli/piece_commands.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// Runs work on all processes. Only the first one prints an error. If one process fails in another
+/// way, for example because memory is short, all end.
+template <class Work>
+void on_ranks(const Work& work) {
+  const MpiSession session;
+  const Ranks ranks(MPI_COMM_WORLD);
+  try {
+    work(ranks);
+  } catch (const InputError&) {
+    if (ranks.is_root()) throw;
+    throw ExitCode{2};
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "smoothfem: process %d of %d failed: %s\n", ranks.rank() + 1, ranks.size(),
+                 dynamic_cast<const std::bad_alloc*>(&error)
+                     ? "there is not enough memory; use more processes on more machines"
+                     : error.what());
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+}
+
+/// Shares the cores of a machine among its processes, unless the user has said how.
+void share_cores(int asked) {
+  if (asked > 0) return set_n_threads(asked);
+  const char* const n_local = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  if (std::getenv("OMP_NUM_THREADS") != nullptr || n_local == nullptr) return;
+  set_n_threads(std::max(1, n_threads() / std::max(1, std::atoi(n_local))));
+}
+
+class Clock {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Largest memory of a process so far, in bytes.
+double peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+void require_piece_list(const std::string& path, const std::string& example) {
+  if (std::filesystem::path(path).extension() != ".pvtu")
+    throw InputError(path + " is one file; several processes need a mesh in pieces: " + example);
+}
+
+/// Throws InputError for an option that does not work on pieces.
+void refuse_options(const SmoothArguments& a) {
+  const std::pair<bool, const char*> given[]{{!a.from.empty(), "--from"},
+                                             {!a.to.empty(), "--to"},
+                                             {!a.fix_rule.empty(), "--fix"},
+                                             {!a.log.empty(), "--log"},
+                                             {!a.series.empty(), "--series"},
+                                             {!a.tag_field.empty(), "--tag-field"},
+                                             {!a.target.empty(), "--target"},
+                                             {a.boundary == "slide", "--boundary slide"},
+                                             {a.interfaces != "fixed", "--interfaces"},
+                                             {a.periodic != "fixed", "--periodic"},
+                                             {a.only_below.has_value(), "--only-below"},
+                                             {a.keep_layers.has_value(), "--keep-layers"},
+                                             {a.untangle, "--untangle"},
+                                             {a.merge, "--merge"}};
+  for (const auto& [is_given, option] : given)
+    if (is_given)
+      throw InputError(std::string(option) +
+                       " does not work on a mesh in pieces; leave it out, or use one file and one "
+                       "process");
+}
+
+template <int dim>
+Method<dim> configured(const SmoothArguments& arguments) {
+  auto method = make_method<dim>(arguments.method);
+  if (!arguments.preset.empty()) apply_preset(find_preset(arguments.preset), method);
+  for (const auto& setting : arguments.settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos)
+      throw InputError("--set needs key=value, not '" + setting + "'");
+    method.set(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  check_parameters(method);
+  if (!arguments.allow_worse) method.floor = 1;
+  return method;
+}
+
+DistributedMesh<2> distributed(const Ranks& ranks, ScatteredMesh<2> mesh) {
+  return distribute(ranks, balanced(ranks, std::move(mesh)));
+}
+DistributedMesh<3> distributed(const Ranks& ranks, ScatteredMesh<3> mesh) {
+  return distribute(ranks, balanced(ranks, std::move(mesh)));
+}
+
+/// Counts of the parts, to print.
+template <int dim>
+std::string parts_text(const Ranks& ranks, const DistributedMesh<dim>& mesh) {
+  const MeshPart& part = *mesh.part.topology().part();
+  double n_own = 0.0, n_copied_nodes = 0.0;
+  for (CellIndex c = 0; c < mesh.part.n_cells(); ++c) n_own += part.owns_cell(c);
+  for (NodeIndex i = 0; i < mesh.part.n_nodes(); ++i) n_copied_nodes += !part.owns_node(i);
+  const double most = ranks.max(n_own);
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "%zu nodes and %zu cells on %d %s; the largest part has %.3g times its share of "
+                "the cells, and at most %.0f copied nodes",
+                mesh.n_nodes, part.n_cells_of_whole(), ranks.size(),
+                ranks.size() == 1 ? "process" : "processes",
+                most * ranks.size() / static_cast<double>(part.n_cells_of_whole()),
+                ranks.max(n_copied_nodes));
+  return text;
+}
+
+void print_quality(const char* when, const MeshQuality& quality) {
+  std::printf("%-8s %9.6f %9.6f %9.6f %9zu\n", when, quality.q_min, quality.q_star_min,
+              quality.q_mean, quality.n_invalid);
+}
+
+template <int dim>
+void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pieces& pieces,
+                  ScatteredMesh<dim> scattered, const Clock& clock) {
+  auto method = configured<dim>(arguments);
+  const double read_seconds = clock.seconds();
+  auto mesh = distributed(ranks, std::move(scattered));
+  const double distributed_seconds = clock.seconds();
+  const bool prints = ranks.is_root() && !arguments.quiet;
+  const std::string parts = parts_text(ranks, mesh);
+  if (prints) std::printf("%s\n", parts.c_str());
+  const MeshQuality before = mesh_quality(mesh.part);
+  const SmoothingResult result = smooth(mesh.part, method);
+  if (arguments.fail_if_invalid && result.quality.n_invalid > 0)
+    throw InputError("the smoothed mesh has " + std::to_string(result.quality.n_invalid) +
+                     " invalid cells; nothing is written");
+  const double smoothed_seconds = clock.seconds();
+  store_coordinates(mesh);
+  pieces.write<dim>(arguments.out, mesh.directory);
+  const double peak = ranks.max(peak_bytes());
+  const double seconds = ranks.max(result.smoothing_seconds);
+  if (!prints) return;
+  std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");
+  print_quality("before", before);
+  print_quality("after", result.quality);
+  std::printf(
+      "%s: %s iterations in %.4g s on %d processes with %d threads each; written to %s\n"
+      "seconds: %.4g to read, %.4g to distribute, %.4g to smooth, %.4g to write; at most %.3g GiB "
+      "a process\n",
+      method.info.title.c_str(), result.iterations_text().c_str(), seconds, ranks.size(),
+      n_threads(), arguments.out.c_str(), read_seconds, distributed_seconds - read_seconds,
+      smoothed_seconds - distributed_seconds, clock.seconds() - smoothed_seconds,
+      peak / (1024.0 * 1024.0 * 1024.0));
+}
+
+std::vector<std::size_t> counts_of(const std::string& text) {
+  std::vector<std::size_t> counts;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    std::size_t count = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
+    if (error != std::errc() || end != word.data() + word.size() || count == 0)
+      throw InputError("--cells is '" + text +
+                       "'; give two or three numbers, for example 20,20,20");
+    counts.push_back(count);
+  }
+  if (counts.size() < 2 || counts.size() > 3)
+    throw InputError("--cells is '" + text + "'; give two or three numbers, for example 20,20,20");
+  return counts;
+}
+
+}  // namespace
+}  // namespace smoothfem
+
+void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments) {
+  using namespace smoothfem;
+  on_ranks([&](const Ranks& ranks) {
+    require_piece_list(arguments.in,
+                       "'smoothfem convert " + arguments.in + " mesh.pvtu --pieces 8' writes one");
+    SmoothArguments all = arguments;
+    if (all.out.empty()) {
+      std::filesystem::path path = all.in;
+      all.out = path.replace_filename(path.stem().string() + "_smoothed.pvtu").string();
+    }
+    require_piece_list(all.out, "write a .pvtu file");
+    refuse_options(all);
+    ranks.together([&] {
+      std::error_code ignored;
+      if (std::filesystem::equivalent(all.in, all.out, ignored))
+        throw InputError("-o names the mesh itself; give another file name");
+      if (ranks.is_root()) require_writable_file(all.out);
+    });
+    share_cores(all.n_threads);
+    const Clock clock;
+    const Pieces pieces(ranks, all.in);
+    std::visit(
+        [&](auto& scattered) { smooth_parts(ranks, all, pieces, std::move(scattered), clock); },
+        *std::make_unique<std::variant<ScatteredMesh<2>, ScatteredMesh<3>>>(pieces.read()));
+  });
+}
+
+void smoothfem_report_pieces(const std::string& mesh, bool as_json) {
+  using namespace smoothfem;
+  on_ranks([&](const Ranks& ranks) {
+    require_piece_list(mesh, "'smoothfem convert " + mesh + " mesh.pvtu --pieces 8' writes one");
+    share_cores(0);
+    auto scattered = Pieces(ranks, mesh).read();
+    std::visit(
+        [&](auto& of_dim) {
+          const auto whole = distributed(ranks, std::move(of_dim));
+          const MeshQuality quality = mesh_quality(whole.part);
+          const std::string parts = parts_text(ranks, whole);
+          if (ranks.is_root() && as_json)
+            std::printf("%s\n",
+                        nlohmann::ordered_json{
+                            {"n_nodes", whole.n_nodes},
+                            {"n_cells", whole.part.topology().part()->n_cells_of_whole()},
+                            {"q_min", quality.q_min},
+                            {"q_star_min", quality.q_star_min},
+                            {"q_mean", quality.q_mean},
+                            {"n_invalid", quality.n_invalid}}
+                            .dump(2)
+                            .c_str());
+          else if (ranks.is_root())
+            std::printf("%s\n%-13s%.6f\n%-13s%.6f\n%-13s%.6f\n%-13s%zu\n", parts.c_str(), "q_min",
+                        quality.q_min, "q*_min", quality.q_star_min, "q_mean", quality.q_mean,
+                        "invalid", quality.n_invalid);
+          if (quality.n_invalid > 0) throw ExitCode{2};
+        },
+        scattered);
+  });
+}
+
+void smoothfem_generate_box(const smoothfem::BoxArguments& arguments) {
+  using namespace smoothfem;
+  on_ranks([&](const Ranks& ranks) {
+    require_piece_list(arguments.out, "write a .pvtu file");
+    const auto counts = counts_of(arguments.cells);
+    BoxParameters parameters{
+        .splits = arguments.split == "tetrahedra" || arguments.split == "triangles",
+        .displacement = arguments.displacement,
+        .seed = arguments.seed};
+    std::copy(counts.begin(), counts.end(), parameters.n.begin());
+    if (!(arguments.displacement >= 0.0 && arguments.displacement < 1.0 / 6.0))
+      throw InputError("--displacement is " + std::to_string(arguments.displacement) +
+                       ", but cells stay valid only from 0 to below 1/6");
+    ranks.together([&] {
+      if (ranks.is_root()) require_writable_file(arguments.out);
+    });
+    const std::size_t n_cells =
+        counts.size() == 3 ? write_box<3>(ranks, parameters, arguments.n_pieces, arguments.out)
+                           : write_box<2>(ranks, parameters, arguments.n_pieces, arguments.out);
+    if (ranks.is_root() && !arguments.quiet)
+      std::printf("%s: %zu cells in %zu pieces\n", arguments.out.c_str(), n_cells,
+                  std::min(arguments.n_pieces, counts.back()));
+  });
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "studies/cli/smooth_arguments.h"
+
+/// Commands on meshes in pieces, on one process or several. They are in a module of their own,
+/// whose libraries take long to load.
+
+namespace smoothfem {
+
+/// The user's arguments of `generate box`.
+struct BoxArguments {
+  std::string cells, split = "tetrahedra";
+  double displacement = 0.0;
+  std::uint64_t seed = 1;
+  std::size_t n_pieces = 1;
+  std::string out;
+  bool quiet = false;
+};
+
+/// True if a command works on pieces: the mesh is a .pvtu file, or mpirun has started several
+/// processes.
+bool works_on_pieces(const std::string& mesh);
+
+void smooth_pieces(const SmoothArguments& arguments);
+void report_pieces(const std::string& mesh, bool as_json);
+void generate_box(const BoxArguments& arguments);
+
+}  // namespace smoothfem
+
+/// The functions of the module.
+extern "C" {
+void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments);
+void smoothfem_report_pieces(const std::string& mesh, bool as_json);
+void smoothfem_generate_box(const smoothfem::BoxArguments& arguments);
+}
