@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distributed/distributed_mesh.h"
 
-#include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/mesh/interfaces.h"
 
 namespace smoothfem {
@@ -45,115 +45,72 @@ class RankPart final : public MeshPart {
   std::size_t n_own_ = 0;
 };
 
-/// Returns the position of a number in an ascending list that has it.
-std::size_t position_in(std::span<const GlobalIndex> list, GlobalIndex number) {
-  return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), number) -
-                                  list.begin());
-}
-
-std::vector<GlobalIndex> sorted_nodes(const CompressedRows<GlobalIndex>& corners) {
-  std::vector<GlobalIndex> nodes = corners.entries();
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  nodes.shrink_to_fit();
-  return nodes;
-}
-
 /// The nodes of some cells, and who owns each.
 struct OwnedNodes {
-  std::vector<GlobalIndex> numbers;  ///< ascending
-  std::vector<int> owners;
+  NumberSet numbers;
+  std::vector<int> owners{};  ///< in the order of the numbers
 
-  int owner(GlobalIndex number) const { return owners[position_in(numbers, number)]; }
+  int owner(GlobalIndex number) const { return owners[numbers.position(number)]; }
 };
 
 /// Chooses the owner of each node among the ranks with cells around it: the first of these.
 template <int dim>
 OwnedNodes choose_owners(ScatteredMesh<dim>& mesh) {
-  OwnedNodes nodes{sorted_nodes(mesh.corners), {}};
-  const std::vector<NodeEntry<dim>> nothing(nodes.numbers.size());
-  mesh.nodes.give(nodes.numbers, nothing, [](NodeEntry<dim>& kept, const NodeEntry<dim>&, int r) {
+  OwnedNodes nodes{NumberSet(mesh.nodes.n())};
+  for (const GlobalIndex number : mesh.cells.corners) nodes.numbers.add(number);
+  nodes.numbers.count();
+  const auto numbers = nodes.numbers.numbers();
+  mesh.nodes.name(numbers, [](NodeEntry<dim>& kept, int r) {
     if (kept.owner < 0) kept.owner = r;
   });
-  for (const auto& entry : mesh.nodes.ask(nodes.numbers)) nodes.owners.push_back(entry.owner);
+  nodes.owners = mesh.nodes.ask(numbers, [](const NodeEntry<dim>& entry) { return entry.owner; });
   return nodes;
 }
 
-/// Cells of a part: those of its rank, and copies of all others around its nodes.
-struct PartCells {
-  std::vector<GlobalIndex> cells;  ///< ascending
-  CompressedRows<GlobalIndex> corners;
-  std::vector<int> tags;
-  std::vector<std::uint8_t> owns_cell;
-  OwnedNodes nodes;
-};
-
-/// Sends each cell to the owners of its nodes.
-template <int dim>
-PartCells add_copies(const Ranks& ranks, ScatteredMesh<dim>& mesh, OwnedNodes nodes) {
-  // A cell: its number, tag, number of corners, corners, their owners.
+/// Sends each cell to the owners of its nodes, and merges the cells from others into the table.
+/// Returns the nodes of all of them, and flags of the cells that this rank owns.
+std::pair<OwnedNodes, std::vector<std::uint8_t>> add_copies(const Ranks& ranks, CellTable& cells,
+                                                            const OwnedNodes& nodes) {
+  // The owners of a cell's corners follow its words.
   std::vector<std::vector<GlobalIndex>> sent(static_cast<std::size_t>(ranks.size()));
   std::vector<int> owners, others;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto corners = mesh.corners[c];
+  for (std::size_t c = 0; c < cells.size(); ++c) {
     owners.clear();
-    for (const GlobalIndex node : corners) owners.push_back(nodes.owner(node));
+    for (const GlobalIndex node : cells[c]) owners.push_back(nodes.owner(node));
     others = owners;
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
     for (const int r : others) {
       if (r == ranks.rank()) continue;
       auto& words = sent[static_cast<std::size_t>(r)];
-      words.insert(words.end(), {mesh.cells[c], static_cast<GlobalIndex>(mesh.tags[c]),
-                                 static_cast<GlobalIndex>(corners.size())});
-      words.insert(words.end(), corners.begin(), corners.end());
+      append_words(cells, c, words);
       words.insert(words.end(), owners.begin(), owners.end());
     }
   }
   const auto received = ranks.exchange(std::move(sent));
-  struct Place {
-    GlobalIndex cell;
-    const GlobalIndex* words;  // null: a cell of this rank
-    std::size_t own;
+  OwnedNodes all{nodes.numbers};
+  const auto for_each_copied = [&](const auto& visit) {
+    for (const auto& words : received)
+      for (std::size_t at = 0; at < words.size(); at += 3 + 2 * words[at + 2])
+        for (std::size_t k = at + 3; k < at + 3 + words[at + 2]; ++k)
+          visit(words[k], static_cast<int>(words[k + words[at + 2]]));
   };
-  std::vector<Place> places;
-  places.reserve(mesh.cells.size());
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) places.push_back({mesh.cells[c], nullptr, c});
-  std::vector<std::pair<GlobalIndex, int>> further;  // nodes of copied cells
-  for (const auto& words : received)
-    for (std::size_t at = 0; at < words.size(); at += 3 + 2 * words[at + 2]) {
-      places.push_back({words[at], &words[at], 0});
-      for (std::size_t k = 0; k < words[at + 2]; ++k)
-        further.emplace_back(words[at + 3 + k],
-                             static_cast<int>(words[at + 3 + words[at + 2] + k]));
-    }
-  std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.cell < b.cell; });
-  PartCells part;
-  for (const Place& place : places) {
-    part.cells.push_back(place.cell);
-    part.owns_cell.push_back(place.words == nullptr);
-    if (place.words == nullptr) {
-      part.corners.append(mesh.corners[place.own]);
-      part.tags.push_back(mesh.tags[place.own]);
-    } else {
-      part.corners.append(std::span(place.words + 3, place.words[2]));
-      part.tags.push_back(static_cast<int>(place.words[1]));
-    }
-  }
-  for (std::size_t i = 0; i < nodes.numbers.size(); ++i)
-    further.emplace_back(nodes.numbers[i], nodes.owners[i]);
-  std::sort(further.begin(), further.end());
-  further.erase(std::unique(further.begin(), further.end()), further.end());
-  for (const auto& [number, owner] : further) {
-    part.nodes.numbers.push_back(number);
-    part.nodes.owners.push_back(owner);
-  }
-  return part;
+  for_each_copied([&](GlobalIndex number, int) { all.numbers.add(number); });
+  all.numbers.count();
+  all.owners.resize(all.numbers.size());
+  const auto before = nodes.numbers.numbers();
+  for (std::size_t i = 0; i < before.size(); ++i)
+    all.owners[all.numbers.position(before[i])] = nodes.owners[i];
+  for_each_copied(
+      [&](GlobalIndex number, int owner) { all.owners[all.numbers.position(number)] = owner; });
+  auto owns_cell = merge_into(cells, sorted_cells(received, 1));
+  return {std::move(all), std::move(owns_cell)};
 }
 
 /// Returns the part's exchange: own nodes are numbered rank by rank.
-std::shared_ptr<const MeshPart> make_rank_part(const Ranks& ranks, const OwnedNodes& nodes,
+std::shared_ptr<const MeshPart> make_rank_part(const Ranks& ranks,
+                                               const std::vector<GlobalIndex>& numbers,
+                                               const std::vector<int>& owners,
                                                std::vector<std::uint8_t> owns_cell,
                                                std::size_t n_cells_of_whole,
                                                std::size_t& n_nodes_of_whole) {
@@ -161,13 +118,13 @@ std::shared_ptr<const MeshPart> make_rank_part(const Ranks& ranks, const OwnedNo
   std::vector<GlobalIndex> own;
   std::vector<NodeIndex> positions, copies;
   std::vector<std::vector<GlobalIndex>> asked(static_cast<std::size_t>(ranks.size()));
-  for (NodeIndex i = 0; i < nodes.numbers.size(); ++i) {
-    owns_node.push_back(nodes.owners[i] == ranks.rank());
+  for (NodeIndex i = 0; i < numbers.size(); ++i) {
+    owns_node.push_back(owners[i] == ranks.rank());
     if (owns_node.back()) {
-      own.push_back(nodes.numbers[i]);
+      own.push_back(numbers[i]);
       positions.push_back(i);
     } else {
-      asked[static_cast<std::size_t>(nodes.owners[i])].push_back(nodes.numbers[i]);
+      asked[static_cast<std::size_t>(owners[i])].push_back(numbers[i]);
       copies.push_back(i);
     }
   }
@@ -177,91 +134,96 @@ std::shared_ptr<const MeshPart> make_rank_part(const Ranks& ranks, const OwnedNo
   std::vector<std::vector<std::size_t>> answers(questions.size());
   for (std::size_t r = 0; r < questions.size(); ++r)
     for (const GlobalIndex number : questions[r])
-      answers[r].push_back(first + position_in(own, number));
-  const auto numbers = ranks.exchange(std::move(answers));
+      answers[r].push_back(
+          first +
+          static_cast<std::size_t>(std::lower_bound(own.begin(), own.end(), number) - own.begin()));
+  const auto places = ranks.exchange(std::move(answers));
   // Copies of one owner are asked for in ascending order, and so are their numbers.
   std::stable_sort(copies.begin(), copies.end(),
-                   [&](NodeIndex a, NodeIndex b) { return nodes.owners[a] < nodes.owners[b]; });
+                   [&](NodeIndex a, NodeIndex b) { return owners[a] < owners[b]; });
   positions.insert(positions.end(), copies.begin(), copies.end());
   std::vector<std::size_t> ghosts;
-  for (const auto& of_rank : numbers) ghosts.insert(ghosts.end(), of_rank.begin(), of_rank.end());
+  for (const auto& of_rank : places) ghosts.insert(ghosts.end(), of_rank.begin(), of_rank.end());
   return std::make_shared<RankPart>(
       ranks, std::move(owns_node), std::move(owns_cell), n_cells_of_whole,
       Halo(ranks, n_nodes_of_whole, first, own.size(), ghosts), std::move(positions));
 }
 
-/// Gives copied nodes the reasons that their owners have found.
-void update_reasons(const MeshPart& part, std::vector<FixedReasons>& reasons) {
+/// Returns why each node of a part stays. Boundary and interfaces are known where all cells around
+/// a node are: at its owner. Collective.
+std::vector<FixedReasons> reasons_in_part(const Topology& topology,
+                                          std::vector<FixedReasons> reasons, bool fixes_boundary) {
+  const auto interface = interface_nodes(topology);
+  for (NodeIndex i = 0; i < reasons.size(); ++i) {
+    // Labelled elements set their nodes apart inside the mesh only.
+    if (topology.on_boundary()[i])
+      reasons[i] &= static_cast<FixedReasons>(~bit(FixedReason::interface));
+    if (fixes_boundary && topology.on_boundary()[i]) reasons[i] |= bit(FixedReason::boundary);
+    if (!interface.empty() && interface[i]) reasons[i] |= bit(FixedReason::interface);
+  }
   std::vector<double> values(reasons.begin(), reasons.end());
-  part.update(values, 1);
+  topology.part()->update(values, 1);
   std::transform(values.begin(), values.end(), reasons.begin(),
                  [](double value) { return static_cast<FixedReasons>(value); });
+  return reasons;
 }
 
-/// The cells of a part with its own numbers of nodes, and why its own nodes stay.
-struct LocalCells {
-  CompressedRows<NodeIndex> rows;
-  MeshLabels labels;
-  std::vector<FixedReasons> reasons;
-};
+/// Makes the topology of a part on all ranks, or throws on all. Collective.
+std::shared_ptr<const Topology> make_topology(const Ranks& ranks, int dim, std::size_t n_nodes,
+                                              CompressedRows<NodeIndex> cells, MeshLabels labels,
+                                              std::vector<FixedReasons> reasons,
+                                              bool fixes_boundary) {
+  std::shared_ptr<const Topology> topology;
+  ranks.together([&] {
+    bool is_agreed = false;
+    try {
+      topology = std::make_shared<const Topology>(
+          dim, n_nodes, std::move(cells), std::move(labels), [&](const Topology& with_boundary) {
+            is_agreed = true;
+            if (ranks.any(false)) throw InputError("another process found an error of the mesh");
+            return reasons_in_part(with_boundary, std::move(reasons), fixes_boundary);
+          });
+    } catch (const InputError&) {
+      if (!is_agreed) (void)ranks.any(true);
+      throw;
+    }
+  });
+  return topology;
+}
 
-/// Boundary and interfaces are known where all cells around a node are: at its owner.
-template <int dim>
-LocalCells make_local_cells(PartCells cells, const std::vector<NodeEntry<dim>>& entries,
-                            bool fixes_boundary) {
-  LocalCells local;
-  auto& [rows, labels, reasons] = local;
-  const std::size_t n_nodes = cells.nodes.numbers.size();
-  {
-    std::vector<RowOffset> offsets{0};
-    std::vector<NodeIndex> nodes;
-    nodes.reserve(cells.corners.n_entries());
-    for (const GlobalIndex number : cells.corners.entries())
-      nodes.push_back(static_cast<NodeIndex>(position_in(cells.nodes.numbers, number)));
-    for (std::size_t c = 0; c < cells.corners.size(); ++c)
-      offsets.push_back(static_cast<RowOffset>(cells.corners.offset(c) + cells.corners[c].size()));
-    rows = {std::move(offsets), std::move(nodes)};
-  }
-  cells.corners = {};
-  const bool any_tag = std::any_of(cells.tags.begin(), cells.tags.end(),
-                                   [&](int tag) { return tag != cells.tags.front(); });
-  if (any_tag) labels.cell_tags = cells.tags;
-  const Topology alone(dim, n_nodes, rows, std::nullopt, labels);
-  const auto interface = interface_nodes(alone);
-  for (NodeIndex i = 0; i < n_nodes; ++i) {
-    // Labelled elements set their nodes apart inside the mesh only.
-    FixedReasons of_node = entries[i].reasons;
-    if (alone.on_boundary()[i]) of_node &= static_cast<FixedReasons>(~bit(FixedReason::interface));
-    if (fixes_boundary && alone.on_boundary()[i]) of_node |= bit(FixedReason::boundary);
-    if (!interface.empty() && interface[i]) of_node |= bit(FixedReason::interface);
-    reasons.push_back(of_node);
-  }
-  return local;
+/// Turns the corners' numbers in the whole mesh into those of the part, in their memory.
+CompressedRows<NodeIndex> local_rows(CellTable& cells, const NumberSet& numbers) {
+  static_assert(std::is_same_v<GlobalIndex, NodeIndex>);
+  parallel_for_ranges(cells.corners.size(), 65536, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k)
+      cells.corners[k] = numbers.position(cells.corners[k]);
+  });
+  return {std::move(cells.offsets), std::move(cells.corners)};
 }
 
 }  // namespace
 
 template <int dim>
 DistributedMesh<dim> distribute(const Ranks& ranks, ScatteredMesh<dim> mesh) {
-  OwnedNodes nodes = choose_owners(mesh);
-  PartCells cells = add_copies(ranks, mesh, std::move(nodes));
-  mesh.cells = {};
-  mesh.corners = {};
-  mesh.tags = {};
-  const auto entries = mesh.nodes.ask(cells.nodes.numbers);
+  auto [nodes, owns_cell] = add_copies(ranks, mesh.cells, choose_owners(mesh));
+  auto numbers = nodes.numbers.numbers();
   std::size_t n_nodes = 0;
-  auto part = make_rank_part(ranks, cells.nodes, std::move(cells.owns_cell), mesh.n_cells, n_nodes);
-  auto numbers = cells.nodes.numbers;
-  LocalCells local;
-  ranks.together(
-      [&] { local = make_local_cells<dim>(std::move(cells), entries, mesh.fixes_boundary); });
-  update_reasons(*part, local.reasons);
-  local.labels.part = std::move(part);
+  MeshLabels labels;
+  labels.part =
+      make_rank_part(ranks, numbers, nodes.owners, std::move(owns_cell), mesh.n_cells, n_nodes);
+  auto rows = local_rows(mesh.cells, nodes.numbers);
+  const auto& tags = mesh.cells.tags;
+  if (std::any_of(tags.begin(), tags.end(), [&](int tag) { return tag != tags.front(); }))
+    labels.cell_tags = std::move(mesh.cells.tags);
+  mesh.cells = {};
+  nodes = {NumberSet(0)};
+  auto reasons = mesh.nodes.ask(numbers, [](const NodeEntry<dim>& entry) { return entry.reasons; });
+  auto topology = make_topology(ranks, dim, numbers.size(), std::move(rows), std::move(labels),
+                                std::move(reasons), mesh.fixes_boundary);
   std::vector<Point<dim>> points;
-  points.reserve(entries.size());
-  for (const auto& entry : entries) points.push_back(entry.point());
-  auto topology = std::make_shared<const Topology>(
-      dim, points.size(), std::move(local.rows), std::move(local.reasons), std::move(local.labels));
+  points.reserve(numbers.size());
+  for (const auto& x : mesh.nodes.ask(numbers, [](const NodeEntry<dim>& entry) { return entry.x; }))
+    points.push_back(Point<dim>(x.data()));
   return {Mesh<dim>(std::move(topology), std::move(points)), std::move(numbers), n_nodes,
           std::move(mesh.nodes)};
 }

@@ -49,19 +49,31 @@ class NodeDirectory {
         merge(entries_[item.number - first()], item.entry, static_cast<int>(r));
   }
 
-  /// Returns the entries of some numbers.
-  std::vector<Entry> ask(std::span<const GlobalIndex> numbers) const {
-    std::vector<std::vector<GlobalIndex>> to(static_cast<std::size_t>(ranks_.size()));
-    for (const GlobalIndex number : numbers) to[keeper_of(number)].push_back(number);
-    const auto asked = ranks_.exchange(std::move(to));
-    std::vector<std::vector<Entry>> answers(asked.size());
-    for (std::size_t r = 0; r < asked.size(); ++r) {
-      answers[r].reserve(asked[r].size());
-      for (const GlobalIndex number : asked[r]) answers[r].push_back(entries_[number - first()]);
+  /// Calls visit(kept entry, rank) for the numbers that ranks name, in the order of the ranks.
+  template <class Visit>
+  void name(std::span<const GlobalIndex> numbers, const Visit& visit) {
+    const auto named = ranks_.exchange(by_keeper(numbers));
+    for (std::size_t r = 0; r < named.size(); ++r)
+      for (const GlobalIndex number : named[r])
+        visit(entries_[number - first()], static_cast<int>(r));
+  }
+
+  /// Returns part(entry) of the entries of some numbers.
+  template <class Part>
+  auto ask(std::span<const GlobalIndex> numbers, const Part& part) const {
+    using Answer = std::decay_t<decltype(part(entries_.front()))>;
+    std::vector<std::vector<Answer>> answers(static_cast<std::size_t>(ranks_.size()));
+    {
+      const auto asked = ranks_.exchange(by_keeper(numbers));
+      for (std::size_t r = 0; r < asked.size(); ++r) {
+        answers[r].reserve(asked[r].size());
+        for (const GlobalIndex number : asked[r])
+          answers[r].push_back(part(entries_[number - first()]));
+      }
     }
     const auto from = ranks_.exchange(std::move(answers));
     std::vector<std::size_t> next(from.size(), 0);
-    std::vector<Entry> result;
+    std::vector<Answer> result;
     result.reserve(numbers.size());
     for (const GlobalIndex number : numbers) {
       const std::size_t r = keeper_of(number);
@@ -71,6 +83,11 @@ class NodeDirectory {
   }
 
  private:
+  std::vector<std::vector<GlobalIndex>> by_keeper(std::span<const GlobalIndex> numbers) const {
+    std::vector<std::vector<GlobalIndex>> result(static_cast<std::size_t>(ranks_.size()));
+    for (const GlobalIndex number : numbers) result[keeper_of(number)].push_back(number);
+    return result;
+  }
   std::size_t first_of(int rank) const {
     return n_ * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks_.size());
   }

@@ -23,14 +23,14 @@ std::vector<Run<dim>> make_runs(const ScatteredMesh<dim>& mesh) {
   // Coordinates are asked for once.
   std::vector<GlobalIndex> asked;
   for (std::size_t first = 0; first < mesh.cells.size(); first += length)
-    for (const GlobalIndex node : mesh.corners[first]) asked.push_back(node);
-  const auto entries = mesh.nodes.ask(asked);
+    for (const GlobalIndex node : mesh.cells[first]) asked.push_back(node);
+  const auto points = mesh.nodes.ask(asked, [](const NodeEntry<dim>& entry) { return entry.x; });
   std::vector<Run<dim>> runs;
   std::size_t next = 0;
   for (std::size_t first = 0; first < mesh.cells.size(); first += length) {
     Point<dim> sum = Point<dim>::Zero();
-    const std::size_t n = mesh.corners[first].size();
-    for (std::size_t k = 0; k < n; ++k) sum += entries[next++].point();
+    const std::size_t n = mesh.cells[first].size();
+    for (std::size_t k = 0; k < n; ++k) sum += Point<dim>(points[next++].data());
     runs.push_back(
         {first, std::min(first + length, mesh.cells.size()), sum / static_cast<double>(n)});
   }
@@ -113,34 +113,12 @@ ScatteredMesh<dim> balanced(const Ranks& ranks, ScatteredMesh<dim> mesh) {
     return mesh;
   const auto runs = make_runs(mesh);
   const std::vector<int> to = bisected(ranks, runs);
-  // A cell: its number, tag, number of corners, corners.
   std::vector<std::vector<GlobalIndex>> sent(static_cast<std::size_t>(ranks.size()));
   for (std::size_t i = 0; i < runs.size(); ++i)
-    for (std::size_t c = runs[i].first; c < runs[i].last; ++c) {
-      auto& words = sent[static_cast<std::size_t>(to[i])];
-      const auto corners = mesh.corners[c];
-      words.insert(words.end(), {mesh.cells[c], static_cast<GlobalIndex>(mesh.tags[c]),
-                                 static_cast<GlobalIndex>(corners.size())});
-      words.insert(words.end(), corners.begin(), corners.end());
-    }
+    for (std::size_t c = runs[i].first; c < runs[i].last; ++c)
+      append_words(mesh.cells, c, sent[static_cast<std::size_t>(to[i])]);
   mesh.cells = {};
-  mesh.corners = {};
-  mesh.tags = {};
-  const auto received = ranks.exchange(std::move(sent));
-  struct Place {
-    GlobalIndex cell;
-    const GlobalIndex* words;
-  };
-  std::vector<Place> places;
-  for (const auto& words : received)
-    for (std::size_t at = 0; at < words.size(); at += 3 + words[at + 2])
-      places.push_back({words[at], &words[at]});
-  std::sort(places.begin(), places.end(), [](Place a, Place b) { return a.cell < b.cell; });
-  for (const Place& place : places) {
-    mesh.cells.push_back(place.cell);
-    mesh.tags.push_back(static_cast<int>(place.words[1]));
-    mesh.corners.append(std::span(place.words + 3, place.words[2]));
-  }
+  mesh.cells = sorted_cells(ranks.exchange(std::move(sent)), 0);
   return mesh;
 }
 

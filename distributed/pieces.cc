@@ -67,7 +67,7 @@ std::vector<std::int64_t> node_numbers(const MeshParts& parts) {
 
 /// Takes the parts of a piece; appends its cells with node indices that begin at first_node.
 ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::size_t first_node,
-                     CompressedRows<GlobalIndex>& corners, std::vector<int>& tags) {
+                     CellTable& table) {
   ReadPiece piece{.dim = dimension_of(parts)};
   const auto refuse = [&](const std::string& what) {
     throw InputError(path.string() + ": " + what);
@@ -82,8 +82,8 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
     row.clear();
     for (const NodeIndex node : cells.nodes[c])
       row.push_back(static_cast<GlobalIndex>(first_node + node));
-    corners.append(row);
-    tags.push_back(cells.tags.empty() ? 0 : cells.tags[c]);
+    table.append(static_cast<GlobalIndex>(table.size()), cells.tags.empty() ? 0 : cells.tags[c],
+                 row);
   }
   piece.numbers = node_numbers(parts);
   piece.reasons.assign(parts.coordinates.size(), 0);
@@ -147,23 +147,20 @@ void number_by_coordinates(const Ranks& ranks, std::vector<ReadPiece>& pieces) {
 template <int dim>
 ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& path,
                              const std::vector<std::vector<GlobalIndex>>& numbers,
-                             std::vector<ReadPiece> pieces, CompressedRows<GlobalIndex> corners,
-                             std::vector<int> tags, bool fixes_boundary) {
+                             std::vector<ReadPiece> pieces, CellTable cells, bool fixes_boundary) {
   double largest = 0.0;
   for (const auto& of_piece : numbers)
     for (const GlobalIndex number : of_piece) largest = std::max<double>(largest, number);
-  ScatteredMesh<dim> mesh{.n_cells = ranks.sum(corners.size()),
-                          .corners = std::move(corners),
-                          .tags = std::move(tags),
+  ScatteredMesh<dim> mesh{.n_cells = ranks.sum(cells.size()),
+                          .cells = std::move(cells),
                           .nodes = NodeDirectory<NodeEntry<dim>>(
                               ranks, static_cast<std::size_t>(ranks.max(largest)) + 1),
                           .fixes_boundary = fixes_boundary};
   if (mesh.n_cells > std::numeric_limits<GlobalIndex>::max())
     throw InputError(path.string() + ": has " + std::to_string(mesh.n_cells) +
                      " cells, but at most 4294967295 are possible");
-  const std::size_t first = ranks.exclusive_scan(mesh.corners.size());
-  for (std::size_t c = 0; c < mesh.corners.size(); ++c)
-    mesh.cells.push_back(static_cast<GlobalIndex>(first + c));
+  const auto first = static_cast<GlobalIndex>(ranks.exclusive_scan(mesh.cells.size()));
+  for (GlobalIndex& number : mesh.cells.numbers) number += first;
   std::vector<GlobalIndex> given;
   std::vector<NodeEntry<dim>> entries;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -205,12 +202,11 @@ std::size_t Pieces::last_piece() const {
 
 std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
   std::vector<ReadPiece> pieces;
-  CompressedRows<GlobalIndex> corners;  // by positions among the nodes of all pieces
-  std::vector<int> tags;
+  CellTable cells;  // corners are positions among the nodes of all pieces
   ranks_.together([&] {
     std::size_t n_nodes = 0;
     for (std::size_t p = first_piece(); p < last_piece(); ++p) {
-      pieces.push_back(take_piece(files_[p], read_mesh_parts(files_[p]), n_nodes, corners, tags));
+      pieces.push_back(take_piece(files_[p], read_mesh_parts(files_[p]), n_nodes, cells));
       n_nodes += pieces.back().points.size();
     }
   });
@@ -237,19 +233,10 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
     all.insert(all.end(), nodes_.back().begin(), nodes_.back().end());
     piece.numbers = {};
   }
-  {
-    CompressedRows<GlobalIndex> numbered;
-    std::vector<GlobalIndex> row;
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-      row.clear();
-      for (const GlobalIndex position : corners[c]) row.push_back(all[position]);
-      numbered.append(row);
-    }
-    corners = std::move(numbered);
-  }
+  for (GlobalIndex& corner : cells.corners) corner = all[corner];
+  all = {};
   const auto make = [&]<int dim>() {
-    return scattered<dim>(ranks_, path_, nodes_, std::move(pieces), std::move(corners),
-                          std::move(tags), !any_marks);
+    return scattered<dim>(ranks_, path_, nodes_, std::move(pieces), std::move(cells), !any_marks);
   };
   if (any_volume) return make.template operator()<3>();
   return make.template operator()<2>();
@@ -262,8 +249,9 @@ void Pieces::write(const std::filesystem::path& out,
       static_cast<std::size_t>(ranks_.max(static_cast<double>(last_piece() - first_piece())));
   for (std::size_t k = 0; k < n_rounds; ++k) {
     const bool has_piece = first_piece() + k < last_piece();
-    const auto entries = directory.ask(has_piece ? std::span<const GlobalIndex>(nodes_[k])
-                                                 : std::span<const GlobalIndex>());
+    const auto entries = directory.ask(
+        has_piece ? std::span<const GlobalIndex>(nodes_[k]) : std::span<const GlobalIndex>(),
+        [](const NodeEntry<dim>& entry) { return entry; });
     ranks_.together([&] {
       if (!has_piece) return;
       const std::size_t p = first_piece() + k;

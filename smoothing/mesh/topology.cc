@@ -122,12 +122,19 @@ Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells
   build(n_nodes, [&] { return std::move(reasons); });
 }
 
+Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells, MeshLabels labels,
+                   const std::function<std::vector<FixedReasons>(const Topology&)>& make_reasons)
+    : dim_(dim), cells_(std::move(cells)), labels_(std::move(labels)) {
+  build(n_nodes, [&] { return make_reasons(*this); });
+}
+
 template <class Reasons>
 void Topology::build(std::size_t n_nodes, const Reasons& make_reasons) {
   check_cells(n_nodes);
   // Not kept: large meshes are smoothed in another order, and other meshes do not need it any more.
   const auto node_cells = rows_by_entry(cells_, n_nodes);
   build_boundary(node_cells);
+  fixed_.resize(n_nodes);  // make_reasons may ask for the number of nodes
   std::vector<FixedReasons> reasons = make_reasons();
   if (reasons.size() != n_nodes)
     throw InputError("the mesh has " + std::to_string(n_nodes) + " nodes but " +

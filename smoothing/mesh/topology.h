@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -42,6 +43,11 @@ class Topology {
   /// As above. reasons: for each node why it stays, 0 if it may move.
   Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
            std::vector<FixedReasons> reasons, MeshLabels labels);
+
+  /// As above. make_reasons(topology): returns these reasons, from a topology that knows its cells
+  /// and its boundary.
+  Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells, MeshLabels labels,
+           const std::function<std::vector<FixedReasons>(const Topology&)>& make_reasons);
 
   int dimension() const { return dim_; }
   std::size_t n_nodes() const { return fixed_.size(); }

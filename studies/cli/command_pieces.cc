@@ -147,38 +147,60 @@ void print_quality(const char* when, const MeshQuality& quality) {
               quality.q_mean, quality.n_invalid);
 }
 
+/// What smoothing leaves: the mesh itself is freed before it is written, which needs memory, too.
 template <int dim>
-void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pieces& pieces,
-                  ScatteredMesh<dim> scattered, const Clock& clock) {
+struct SmoothedParts {
+  NodeDirectory<NodeEntry<dim>> directory;
+  std::string title;
+  MeshQuality before;
+  SmoothingResult result;
+  double distributed_seconds;  ///< until then
+};
+
+template <int dim>
+SmoothedParts<dim> smoothed(const Ranks& ranks, const SmoothArguments& arguments,
+                            ScatteredMesh<dim> scattered, const Clock& clock) {
   auto method = configured<dim>(arguments);
-  const double read_seconds = clock.seconds();
   auto mesh = distributed(ranks, std::move(scattered));
   const double distributed_seconds = clock.seconds();
-  const bool prints = ranks.is_root() && !arguments.quiet;
   const std::string parts = parts_text(ranks, mesh);
-  if (prints) std::printf("%s\n", parts.c_str());
+  if (ranks.is_root() && !arguments.quiet) std::printf("%s\n", parts.c_str());
   const MeshQuality before = mesh_quality(mesh.part);
-  const SmoothingResult result = smooth(mesh.part, method);
+  SmoothingResult result = smooth(mesh.part, method);
   if (arguments.fail_if_invalid && result.quality.n_invalid > 0)
     throw InputError("the smoothed mesh has " + std::to_string(result.quality.n_invalid) +
                      " invalid cells; nothing is written");
-  const double smoothed_seconds = clock.seconds();
   store_coordinates(mesh);
-  pieces.write<dim>(arguments.out, mesh.directory);
+  return {std::move(mesh.directory), method.info.title, before, std::move(result),
+          distributed_seconds};
+}
+
+template <int dim>
+void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pieces& pieces,
+                  ScatteredMesh<dim> scattered, const Clock& clock) {
+  const double read_seconds = clock.seconds();
+  const auto [directory, title, before, result, distributed_seconds] =
+      smoothed(ranks, arguments, std::move(scattered), clock);
+  const double smoothed_seconds = clock.seconds();
+  pieces.write<dim>(arguments.out, directory);
   const double peak = ranks.max(peak_bytes());
   const double seconds = ranks.max(result.smoothing_seconds);
-  if (!prints) return;
+  if (!ranks.is_root()) return;
+  if (result.quality.n_invalid > 0)
+    std::fprintf(stderr, "smoothfem: warning: %s: %zu cells are invalid\n", arguments.out.c_str(),
+                 result.quality.n_invalid);
+  if (arguments.quiet) return;
   std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");
   print_quality("before", before);
   print_quality("after", result.quality);
   std::printf(
-      "%s: %s iterations in %.4g s on %d processes with %d threads each; written to %s\n"
+      "%s: %s iterations in %.4g s on %d %s with %d threads each; written to %s\n"
       "seconds: %.4g to read, %.4g to distribute, %.4g to smooth, %.4g to write; at most %.3g GiB "
       "a process\n",
-      method.info.title.c_str(), result.iterations_text().c_str(), seconds, ranks.size(),
-      n_threads(), arguments.out.c_str(), read_seconds, distributed_seconds - read_seconds,
-      smoothed_seconds - distributed_seconds, clock.seconds() - smoothed_seconds,
-      peak / (1024.0 * 1024.0 * 1024.0));
+      title.c_str(), result.iterations_text().c_str(), seconds, ranks.size(),
+      ranks.size() == 1 ? "process" : "processes", n_threads(), arguments.out.c_str(), read_seconds,
+      distributed_seconds - read_seconds, smoothed_seconds - distributed_seconds,
+      clock.seconds() - smoothed_seconds, peak / (1024.0 * 1024.0 * 1024.0));
 }
 
 std::vector<std::size_t> counts_of(const std::string& text) {

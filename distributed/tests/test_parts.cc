@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Run by mpirun: results must not depend on the number of processes. Each rank runs every test,
+// the root alone reports.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mpi.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "distributed/box.h"
+#include "distributed/distributed_mesh.h"
+#include "distributed/partition.h"
+#include "distributed/pieces.h"
+#include "fem/ranks/mpi_session.h"
+#include "meshes/io/mesh_file.h"
+#include "smoothing/loop/smooth.h"
+#include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/parts/order_free_sum.h"
+#include "smoothing/tests/volume_meshes.h"
+
+namespace smoothfem {
+namespace {
+
+namespace fs = std::filesystem;
+using test::box_mesh;
+using test::BoxCells;
+using test::grid_mesh;
+using test::GridCells;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const Ranks& all_ranks() {
+  static const Ranks ranks(MPI_COMM_WORLD);
+  return ranks;
+}
+
+/// A mesh of two materials with an interface, and distorted cells.
+template <int dim>
+Mesh<dim> two_materials(const Mesh<dim>& mesh, double distortion, std::uint64_t seed) {
+  MeshLabels labels;
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c)
+    labels.cell_tags.push_back(mesh.coordinates()[mesh.topology().cell_nodes(c)[0]][0] < 2.5 ? 1
+                                                                                             : 2);
+  auto reasons = mesh.topology().fixed_reasons();
+  const Topology tagged(dim, mesh.n_nodes(), mesh.topology().cells(), reasons, labels);
+  add_implied_reasons(tagged, reasons);
+  Mesh<dim> result(std::make_shared<const Topology>(dim, mesh.n_nodes(), mesh.topology().cells(),
+                                                    reasons, labels),
+                   mesh.copied_coordinates());
+  test::distort(result, distortion, seed);
+  return result;
+}
+
+/// The cells of a mesh, spread over the ranks without order.
+template <int dim>
+ScatteredMesh<dim> scattered(const Ranks& ranks, const Mesh<dim>& mesh) {
+  ScatteredMesh<dim> result{.n_cells = mesh.n_cells(),
+                            .nodes = NodeDirectory<NodeEntry<dim>>(ranks, mesh.n_nodes())};
+  const auto n_ranks = static_cast<std::size_t>(ranks.size());
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c)
+    if ((c * 7 + c / 3) % n_ranks == static_cast<std::size_t>(ranks.rank()))
+      result.cells.append(c, mesh.topology().labels().cell_tags[c], mesh.topology().cell_nodes(c));
+  std::vector<GlobalIndex> numbers;
+  std::vector<NodeEntry<dim>> entries;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+    numbers.push_back(i);
+    entries.push_back(node_entry<dim>(mesh.coordinates()[i], 0));
+  }
+  result.nodes.give(numbers, entries,
+                    [](NodeEntry<dim>& kept, const NodeEntry<dim>& node, int) { kept.x = node.x; });
+  return result;
+}
+
+template <int dim>
+struct Smoothed {
+  std::vector<Point<dim>> points;
+  SmoothingResult result;
+  std::size_t n_reset = 0, n_copies = 0;
+};
+
+/// Makes a method that keeps the worst quality. "wild": GETMe simultaneous with so large steps that
+/// nodes of invalid cells have to be reset.
+template <int dim>
+Method<dim> method_of(const std::string& name) {
+  auto method = make_method<dim>(name == "wild" ? "getme-simultaneous" : name);
+  method.floor = 1;
+  if (name == "wild" && dim == 3)
+    for (const std::string type : {"tetrahedron", "pyramid", "prism", "hexahedron"})
+      method.set("sigma_" + type + "_min", "100");
+  return method;
+}
+
+/// Smooths a mesh in parts; returns all its points.
+template <int dim>
+Smoothed<dim> smoothed(const Ranks& ranks, const Mesh<dim>& mesh, const std::string& name,
+                       bool balances) {
+  auto spread = scattered(ranks, mesh);
+  auto parts = distribute(ranks, balances ? balanced(ranks, std::move(spread)) : std::move(spread));
+  EXPECT_EQ(parts.n_nodes, mesh.n_nodes());
+  auto method = method_of<dim>(name);
+  Smoothed<dim> smoothed;
+  smoothed.result = smooth(parts.part, method, [&](const IterationRecord& record, const auto&) {
+    smoothed.n_reset += record.n_reset;
+  });
+  store_coordinates(parts);
+  std::vector<GlobalIndex> numbers(mesh.n_nodes());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  for (const auto& entry : parts.directory.ask(numbers, [](const auto& kept) { return kept; })) {
+    smoothed.points.push_back(entry.point());
+    EXPECT_EQ(entry.reasons,
+              mesh.topology().fixed_reasons(static_cast<NodeIndex>(smoothed.points.size() - 1)));
+  }
+  for (NodeIndex i = 0; i < parts.part.n_nodes(); ++i) {
+    EXPECT_EQ(std::as_const(parts.part).coordinates()[i], smoothed.points[parts.nodes[i]]);
+    smoothed.n_copies += !parts.part.topology().part()->owns_node(i);
+  }
+  smoothed.n_copies = ranks.sum(smoothed.n_copies);
+  return smoothed;
+}
+
+template <int dim>
+void expect_same_for_all_ranks(const Mesh<dim>& mesh, const std::string& what,
+                               std::size_t& n_reset) {
+  for (const std::string name :
+       {"laplace", "weighted-laplace", "smart-laplace", "getme-simultaneous", "wild"}) {
+    const auto alone = smoothed(Ranks(), mesh, name, false);
+    for (const bool balances : {false, true}) {
+      const auto together = smoothed(all_ranks(), mesh, name, balances);
+      EXPECT_EQ(together.points, alone.points) << what << ' ' << name;
+      EXPECT_EQ(together.result.iterations_text(), alone.result.iterations_text());
+      EXPECT_EQ(together.result.quality.q_min, alone.result.quality.q_min);
+      EXPECT_EQ(together.result.quality.q_star_min, alone.result.quality.q_star_min);
+      EXPECT_EQ(together.result.quality.q_mean, alone.result.quality.q_mean);
+      EXPECT_EQ(together.result.n_floor_reset, alone.result.n_floor_reset);
+      EXPECT_EQ(together.n_reset, alone.n_reset);
+      EXPECT_EQ(together.n_copies > 0, all_ranks().size() > 1);
+    }
+    EXPECT_NE(alone.points, mesh.copied_coordinates());
+    n_reset += alone.n_reset;
+    if (name.ends_with("laplace") && name != "smart-laplace") continue;  // in node order otherwise
+    Mesh<dim> whole = mesh;
+    auto method = method_of<dim>(name);
+    smooth(whole, method);
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      EXPECT_LT((std::as_const(whole).coordinates()[i] - alone.points[i]).norm(), 1e-10) << name;
+  }
+}
+
+TEST(Parts, ResultsDoNotDependOnTheRanks) {
+  std::size_t n_reset = 0;
+  for (const auto kind : {GridCells::triangles, GridCells::quadrilaterals, GridCells::mixed})
+    expect_same_for_all_ranks(two_materials(grid_mesh(9, kind), 0.7, 3), "planar", n_reset);
+  for (const auto kind : {BoxCells::tetrahedra, BoxCells::hexahedra, BoxCells::mixed})
+    expect_same_for_all_ranks(two_materials(box_mesh(5, 4, 5, kind), 0.6, 4), name_of(kind),
+                              n_reset);
+  EXPECT_GT(n_reset, 0u);
+}
+
+TEST(Parts, MethodsThatNeedTheWholeMeshAreRefused) {
+  const auto mesh = two_materials(grid_mesh(6, GridCells::triangles), 0.2, 1);
+  EXPECT_THAT([&] { smoothed(all_ranks(), mesh, "global-optimization", true); },
+              ThrowsMessage<InputError>(HasSubstr("methods for a mesh in parts are")));
+}
+
+TEST(Parts, BalancedPartsHaveEqualShares) {
+  const auto mesh = two_materials(box_mesh(6, 5, 4, BoxCells::tetrahedra), 0.2, 1);
+  auto all = scattered(Ranks(), mesh);  // all cells on the root at first
+  auto spread = scattered(all_ranks(), mesh);
+  spread.cells = all_ranks().is_root() ? std::move(all.cells) : CellTable{};
+  const auto shared = balanced(all_ranks(), std::move(spread));
+  EXPECT_EQ(all_ranks().sum(shared.cells.size()), mesh.n_cells());
+  EXPECT_LT(all_ranks().max(static_cast<double>(shared.cells.size())) * all_ranks().size(),
+            1.1 * static_cast<double>(mesh.n_cells()));
+  EXPECT_TRUE(std::is_sorted(shared.cells.numbers.begin(), shared.cells.numbers.end()));
+}
+
+TEST(Parts, TablesMergeInOrder) {
+  CellTable table, others;
+  const std::vector<GlobalIndex> triangle{1, 2, 3}, quadrilateral{4, 5, 6, 7};
+  for (const GlobalIndex c : {1u, 4u, 5u, 9u})
+    table.append(c, 10, c == 4 ? quadrilateral : triangle);
+  for (const GlobalIndex c : {0u, 2u, 3u, 7u})
+    others.append(c, 20, c == 3 ? quadrilateral : triangle);
+  const auto was_there = merge_into(table, others);
+  EXPECT_THAT(table.numbers, testing::ElementsAre(0, 1, 2, 3, 4, 5, 7, 9));
+  EXPECT_THAT(table.tags, testing::ElementsAre(20, 10, 20, 20, 10, 10, 20, 10));
+  EXPECT_THAT(was_there, testing::ElementsAre(0, 1, 0, 0, 1, 1, 0, 1));
+  for (std::size_t c = 0; c < table.size(); ++c)
+    EXPECT_THAT(table[c], testing::ElementsAreArray(table.numbers[c] == 3 || table.numbers[c] == 4
+                                                        ? quadrilateral
+                                                        : triangle));
+}
+
+TEST(Parts, NumberSetsKnowPositions) {
+  NumberSet set(200);
+  for (const GlobalIndex number : {0u, 63u, 64u, 130u, 199u}) set.add(number);
+  set.count();
+  EXPECT_THAT(set.numbers(), testing::ElementsAre(0, 63, 64, 130, 199));
+  EXPECT_EQ(set.position(64), 2u);
+  EXPECT_EQ(set.position(199), 4u);
+}
+
+/// A folder that the root makes and removes.
+class Folder {
+ public:
+  Folder() {
+    long number = ::getpid();
+    all_ranks().broadcast(number);
+    path_ = fs::temp_directory_path() / ("smoothfem_parts_" + std::to_string(number));
+    all_ranks().on_root([&] { fs::create_directories(path_); });
+  }
+  ~Folder() {
+    (void)all_ranks().any(false);
+    if (all_ranks().is_root()) fs::remove_all(path_);
+  }
+  fs::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+VolumeMesh smoothed_pieces(const Ranks& ranks, const fs::path& in, const fs::path& out) {
+  const Pieces pieces(ranks, in);
+  auto parts = distribute(ranks, balanced(ranks, std::get<ScatteredMesh<3>>(pieces.read())));
+  auto method = make_method<3>("getme-simultaneous");
+  smooth(parts.part, method);
+  store_coordinates(parts);
+  pieces.write<3>(out, parts.directory);
+  return parts.part;
+}
+
+TEST(Parts, FilesAreTheSameForAllRanks) {
+  const Folder folder;
+  const BoxParameters box{.n = {4, 3, 5}, .splits = true, .displacement = 0.16};
+  EXPECT_EQ(write_box<3>(all_ranks(), box, 3, folder / "box.pvtu"), 360u);
+  smoothed_pieces(all_ranks(), folder / "box.pvtu", folder / "together.pvtu");
+  if (!all_ranks().is_root()) return;
+  write_box<3>(Ranks(), box, 3, folder / "alone_box.pvtu");
+  const auto whole = smoothed_pieces(Ranks(), folder / "box.pvtu", folder / "alone.pvtu");
+  for (std::size_t p = 0; p < 3; ++p) {
+    const auto content = content_of(piece_file(folder / "together.pvtu", p));
+    EXPECT_GT(content.size(), 1000u);
+    EXPECT_EQ(content, content_of(piece_file(folder / "alone.pvtu", p)));
+    EXPECT_EQ(content_of(piece_file(folder / "box.pvtu", p)),
+              content_of(piece_file(folder / "alone_box.pvtu", p)));
+  }
+  // The pieces are those of the whole box, whose coordinates one process has.
+  const auto last = std::get<VolumeMesh>(read_mesh(piece_file(folder / "together.pvtu", 2)).mesh);
+  for (NodeIndex i = 0; i < last.n_nodes(); ++i)
+    EXPECT_EQ(last.coordinates()[i], whole.coordinates()[whole.n_nodes() - last.n_nodes() + i]);
+  EXPECT_GT(mesh_quality(whole).q_min, 0.6);
+}
+
+/// Files without numbers of nodes: those with equal coordinates are the same.
+TEST(Parts, NodesOfPiecesAreMatchedByCoordinates) {
+  const Folder folder;
+  const BoxParameters box{.n = {4, 3, 5}, .splits = true, .displacement = 0.16};
+  write_box<3>(all_ranks(), box, 3, folder / "box.pvtu");
+  all_ranks().on_root([&] {
+    std::vector<fs::path> files;
+    for (std::size_t p = 0; p < 3; ++p) {
+      auto mesh = std::get<VolumeMesh>(read_mesh(piece_file(folder / "box.pvtu", p)).mesh);
+      auto labels = mesh.topology().labels();
+      labels.content = nullptr;
+      files.push_back(piece_file(folder / "bare.pvtu", p));
+      write_mesh(files.back(), VolumeMesh(std::make_shared<const Topology>(
+                                              3, mesh.n_nodes(), mesh.topology().cells(),
+                                              mesh.topology().fixed_reasons(), std::move(labels)),
+                                          mesh.copied_coordinates()));
+    }
+    write_piece_list(folder / "bare.pvtu", files);
+  });
+  smoothed_pieces(all_ranks(), folder / "box.pvtu", folder / "a.pvtu");
+  smoothed_pieces(all_ranks(), folder / "bare.pvtu", folder / "b.pvtu");
+  all_ranks().on_root([&] {
+    for (std::size_t p = 0; p < 3; ++p) {
+      const auto a = read_mesh(piece_file(folder / "a.pvtu", p)).mesh,
+                 b = read_mesh(piece_file(folder / "b.pvtu", p)).mesh;
+      EXPECT_EQ(std::get<VolumeMesh>(a).copied_coordinates(),
+                std::get<VolumeMesh>(b).copied_coordinates());
+    }
+  });
+}
+
+TEST(Parts, BadPiecesAreRefusedOnAllRanks) {
+  const Folder folder;
+  write_box<2>(all_ranks(), {.n = {4, 4, 1}}, 3, folder / "box.pvtu");
+  const auto read = [&] { Pieces(all_ranks(), folder / "box.pvtu").read(); };
+  EXPECT_NO_THROW(read());
+  (void)all_ranks().any(false);
+  all_ranks().on_root([&] { fs::resize_file(piece_file(folder / "box.pvtu", 2), 700); });
+  EXPECT_THAT(read, ThrowsMessage<InputError>(HasSubstr("box_0002.vtu")));
+  (void)all_ranks().any(false);
+  all_ranks().on_root([&] { std::ofstream(folder / "box.pvtu") << "<VTKFile></VTKFile>"; });
+  EXPECT_THAT(read, ThrowsMessage<InputError>(HasSubstr("names no piece")));
+}
+
+TEST(Parts, SumsDoNotDependOnTheOrder) {
+  const auto mesh = two_materials(grid_mesh(4, GridCells::triangles), 0.1, 1);
+  const auto parts = distribute(Ranks(), scattered(Ranks(), mesh));
+  std::vector<double> terms;
+  for (int k = 1; k < 2000; ++k) terms.push_back(1.0 / k);
+  OrderFreeSum up, down;
+  double sum = 0.0;
+  for (const double term : terms) {
+    up.add(term);
+    sum += term;
+  }
+  std::reverse(terms.begin(), terms.end());
+  for (const double term : terms) down.add(term);
+  const MeshPart& part = *parts.part.topology().part();
+  EXPECT_EQ(up.total(part), down.total(part));
+  EXPECT_NEAR(up.total(part), sum, 1e-14);
+}
+
+}  // namespace
+}  // namespace smoothfem
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  const smoothfem::MpiSession session;
+  if (!smoothfem::all_ranks().is_root()) {
+    auto& listeners = testing::UnitTest::GetInstance()->listeners();
+    delete listeners.Release(listeners.default_result_printer());
+  }
+  int result = RUN_ALL_TESTS();
+  MPI_Allreduce(MPI_IN_PLACE, &result, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  return result;
+}
