@@ -4,12 +4,17 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <set>
 
 #include "meshes/doctor/examinations/orientation.h"
 #include "meshes/doctor/examinations/pieces.h"
 #include "meshes/doctor/examinations/same_cells.h"
 #include "meshes/doctor/examine_boundary.h"
+#include "smoothing/geometry/cell_edges.h"
+#include "smoothing/mesh/midside_nodes.h"
 #include "smoothing/quality/mean_ratio.h"
+#include "smoothing/second_order/jacobian_bounds.h"
 #include "smoothing/simd/cells.h"
 
 namespace smoothfem {
@@ -60,6 +65,63 @@ void add_directions(Findings& findings, const FacetTable& table) {
                      (n_folded == 1 ? "its" : "their") + " nodes",
                  cells.dim == 2 && !cells.planar ? "repair the surface in the mesh generator"
                                                  : "'smoothfem smooth --untangle' may help");
+}
+
+/// Adds cells of second order that are not proven valid, although their corners make valid cells.
+template <int dim>
+void add_bent_cells(Findings& findings, const ElementList& list, const std::vector<bool>& usable) {
+  const PlainCells& cells = findings.cells();
+  std::size_t n_bent = 0;
+  CellIndex first = 0;
+  std::vector<Point<dim>> points;
+  for (CellIndex c = 0; c < cells.cells.size(); ++c) {
+    if (!usable[c] || list.midside_of(c).empty() || is_invalid(cells, cells.cells[c])) continue;
+    points.clear();
+    for (const auto row : {cells.cells[c], list.midside_of(c)})
+      for (const NodeIndex node : row) points.push_back(cells.points[node].template head<dim>());
+    if (!is_proven_valid(std::span<const Point<dim>>(points)) && n_bent++ == 0) first = c;
+  }
+  if (n_bent > 0)
+    findings.add(findings.at_cell(FindingKind::bent_cells, n_bent, first),
+                 count_of(n_bent, "cell") +
+                     (n_bent == 1 ? " has valid corners, but its midside nodes bend it too much"
+                                  : " have valid corners, but their midside nodes bend them too "
+                                    "much"),
+                 "'smoothfem smooth' moves these towards their straight places");
+}
+
+/// Adds linear cells with an edge that another cell bends: between both is a gap, or they overlap.
+void add_straight_sides(Findings& findings, const ElementList& list) {
+  const PlainCells& cells = findings.cells();
+  const auto is_linear = [&](CellIndex c) { return list.midside_of(c).empty(); };
+  std::set<std::array<NodeIndex, 2>> bent;
+  for (CellIndex c = 0; c < cells.cells.size(); ++c)
+    for_each_midside_place(
+        cells.dim, cells.cells[c], list.midside_of(c),
+        [&](const MidsidePlace& place, NodeIndex node) {
+          constexpr double rounding = 1e-9;
+          if (place[2] != no_corner || place[0] == place[1]) return;  // no edge
+          const Point<3>&a = cells.points[place[0]], &b = cells.points[place[1]];
+          if ((cells.points[node] - 0.5 * (a + b)).norm() > rounding * (b - a).norm())
+            bent.insert({place[0], place[1]});
+        });
+  std::size_t n = 0;
+  CellIndex first = 0;
+  for (CellIndex c = 0; c < cells.cells.size() && !bent.empty(); ++c) {
+    if (!is_linear(c)) continue;
+    bool is_beside = false;
+    for_each_edge(cells.dim, cells.cells[c].size(), [&](std::size_t a, std::size_t b) {
+      const auto [low, high] = std::minmax(cells.cells[c][a], cells.cells[c][b]);
+      is_beside = is_beside || bent.contains({low, high});
+    });
+    if (is_beside && n++ == 0) first = c;
+  }
+  if (n > 0)
+    findings.add(findings.at_cell(FindingKind::straight_sides, n, first),
+                 count_of(n, "linear cell") + (n == 1 ? " has" : " have") +
+                     " a straight edge that a neighbour of second order bends, so that they "
+                     "overlap or leave a gap",
+                 "make the cells of one order in the mesh generator");
 }
 
 void add_crowded_facets(Findings& findings, const FacetTable& table) {
@@ -179,6 +241,11 @@ Examination examine(const MeshParts& parts) {
   Findings findings(cells, numbers);
   const auto usable = add_unusable_cells(findings);
   add_unused_nodes(findings, list.midside);
+  if (!list.midside.empty()) add_straight_sides(findings, list);
+  if (dim == 3)
+    add_bent_cells<3>(findings, list, usable);
+  else if (cells.planar)
+    add_bent_cells<2>(findings, list, usable);
   std::vector<Finding> more;
   if (std::find(usable.begin(), usable.end(), false) == usable.end()) {
     more = examine_usable(cells, numbers);

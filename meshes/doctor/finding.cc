@@ -11,6 +11,10 @@ const char* name_of(FindingKind kind) {
       return "reversed-cells";
     case FindingKind::folded_cells:
       return "folded-cells";
+    case FindingKind::straight_sides:
+      return "straight-sides";
+    case FindingKind::bent_cells:
+      return "bent-cells";
     case FindingKind::collapsed_cells:
       return "collapsed-cells";
     case FindingKind::doubled_cells:

@@ -14,6 +14,8 @@ namespace smoothfem {
 enum class FindingKind {
   reversed_cells,    ///< the direction of the nodes is their only fault
   folded_cells,      ///< invalid in spite of a right direction
+  bent_cells,        ///< have valid corners, but midside nodes make them invalid
+  straight_sides,    ///< of linear cells, where a neighbour of second order bends
   collapsed_cells,   ///< name a node twice
   doubled_cells,     ///< have the nodes of another cell
   crowded_facets,    ///< belong to three or more cells

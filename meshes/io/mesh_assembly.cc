@@ -399,8 +399,9 @@ void require_held(const std::filesystem::path& path, const MeshView& mesh,
         elements.dimension(e) == 1
             ? "line"
             : std::string(name_of(element_type(elements.dimension(e), n_corners)));
-    throw InputError("cannot write " + path.string() + ": " + program + " has no " + shape +
-                     " with " + std::to_string(n_corners + n_midside) + " nodes; use " + instead);
+    throw InputError("cannot write " + path.string() + ": no element of " + program +
+                     " is known for a " + shape + " with " + std::to_string(n_corners + n_midside) +
+                     " nodes; use " + instead);
   }
 }
 

@@ -59,9 +59,13 @@ Mesh<dim> with_layer_rule(Mesh<dim> mesh, const MeshOptions& options, const Note
   if (keeps) return with_fixed_nodes(std::move(mesh), std::move(reasons));
   if (n_free > 0 && !options.has_target) {
     std::ostringstream text;
-    text << layers.cells.size() << " cells with aspect ratios above " << min_layer_aspect
-         << " lie in layers " << place_of(layers, topology.labels(), dim)
-         << "; most methods make them isotropic; keep them by " << option_text("keep-layers");
+    const bool is_one = layers.cells.size() == 1;
+    text << layers.cells.size()
+         << (is_one ? " cell with an aspect ratio above " : " cells with aspect ratios above ")
+         << min_layer_aspect << (is_one ? " lies in layers " : " lie in layers ")
+         << place_of(layers, topology.labels(), dim) << "; most methods make "
+         << (is_one ? "it" : "them") << " isotropic; keep " << (is_one ? "it" : "them") << " by "
+         << option_text("keep-layers");
     notes.warn(text.str());
   }
   return mesh;

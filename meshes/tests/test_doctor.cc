@@ -137,6 +137,30 @@ TEST(Doctor, FoldedCellsAreNotTurnedOver) {
   EXPECT_FALSE(findings[1].is_repairable);
 }
 
+TEST(Doctor, FindsCellsThatMidsideNodesBendTooMuch) {
+  // Two triangles TRI6 of the unit square; the diagonal's midside node moves along its normal.
+  const auto with_diagonal_at = [](double t) {
+    auto x = unit_square;
+    x.insert(x.end(), {{0.5, 0, 0}, {1, 0.5, 0}, {0.5 + t, 0.5 - t, 0}, {0.5, 1, 0}, {0, 0.5, 0}});
+    MeshParts parts = sick_parts(2, x, {{0, 1, 2}, {0, 2, 3}});
+    parts.elements[2].midside = test::rows_of({{4, 5, 6}, {6, 7, 8}});
+    return parts;
+  };
+  EXPECT_TRUE(examine(with_diagonal_at(0.1)).findings.empty());
+  const Finding finding = only_finding(with_diagonal_at(0.3));
+  EXPECT_EQ(finding.kind, FindingKind::bent_cells);
+  EXPECT_EQ(finding.count, 1u);
+  EXPECT_EQ(finding.cell, 0u);
+  // A linear neighbour does not follow.
+  MeshParts mixed = with_diagonal_at(0.1);
+  mixed.elements[2].midside = test::rows_of({{4, 5, 6}, {}});
+  mixed.coordinates.resize(7);
+  EXPECT_EQ(only_finding(mixed).kind, FindingKind::straight_sides);
+  EXPECT_EQ(only_finding(mixed).cell, 1u);
+  mixed.coordinates[6] = {0.5, 0.5, 0};
+  EXPECT_TRUE(examine(mixed).findings.empty());
+}
+
 TEST(Doctor, TheSmallerPartOfASurfaceIsTurnedOver) {
   auto x = unit_square;
   x.emplace_back(0.5, 0.5, 1.0);

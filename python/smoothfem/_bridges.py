@@ -33,7 +33,10 @@ def from_meshio(mesh, *, tag_field=""):
 
 
 def to_meshio(mesh):
-    """Makes a meshio.Mesh with all cells, labelled facets, tags ("gmsh:physical"), names of groups, and data of a Mesh."""
+    """Makes a meshio.Mesh with all cells, labelled facets, tags ("gmsh:physical"), names of groups, and data of a Mesh.
+
+    Raises InputError for a type of cells that the installed meshio does not know.
+    """
     import meshio
     grid = _core.to_grid(mesh, False)
     blocks, order = [], []
@@ -43,8 +46,11 @@ def to_meshio(mesh):
         order.append(chosen)
     cell_data = {(_GMSH_TAGS if name == grid["tag_field"] == _OWN_TAGS else name): [values[chosen] for chosen in order]
                  for name, values in grid["cell_data"].items()}
-    return meshio.Mesh(grid["points"], blocks, point_data=grid["point_data"], cell_data=cell_data,
-                       field_data={name: np.array([tag, dim]) for (dim, tag), name in mesh.names.items()})
+    try:
+        return meshio.Mesh(grid["points"], blocks, point_data=grid["point_data"], cell_data=cell_data,
+                           field_data={name: np.array([tag, dim]) for (dim, tag), name in mesh.names.items()})
+    except KeyError as unknown:
+        raise _core.InputError(f"meshio {meshio.__version__} knows no cells of the type {unknown}; write the mesh to a file instead") from unknown
 
 
 def from_pyvista(grid, *, tag_field=""):

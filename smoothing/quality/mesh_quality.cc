@@ -223,8 +223,13 @@ struct Words<2, 3> {
 
 /// A mesh that is seen from behind is one mistake, not n_cells mistakes.
 template <class W>
-std::string advice(std::size_t n_inverted, std::size_t n_cells) {
+std::string advice(std::size_t n_inverted, std::size_t n_cells, bool is_of_second_order) {
   if (n_inverted == n_cells) return std::string(W::all) + "; " + W::fix;
+  if (is_of_second_order)
+    return "their corners alone are invalid; repair them in the mesh generator, or save linear "
+           "cells "
+           "and untangle these (" +
+           option_text("untangle") + ")";
   if (n_inverted > 0)
     return std::string(W::fix_some) + ", or untangle the mesh first (" + option_text("untangle") +
            ") if they are inverted";
@@ -274,7 +279,7 @@ void require_valid(const Mesh<dim, spacedim>& mesh, const std::string& path,
           << (are_corners_valid
                   ? "their corners are valid, but midside nodes bend them too much: 'smoothfem "
                     "smooth' moves these towards their straight places"
-                  : advice<W>(n_inverted, mesh.n_cells()));
+                  : advice<W>(n_inverted, mesh.n_cells(), topology.midside() != nullptr));
   throw InputError(message.str());
 }
 

@@ -210,7 +210,8 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
         fields_text(mesh.topology().labels().content.get())})
     if (!line.empty()) std::printf("%s\n", line.c_str());
   if constexpr (dim == spacedim)
-    if (const auto* constraints = mesh.constraints())
+    // Curved facets follow the initial ones, which the distance of straight facets does not say.
+    if (const auto* constraints = mesh.constraints(); constraints && !mesh.topology().midside())
       std::printf("distance from the initial %s: %.3g (limit: %.3g)\n",
                   arguments.boundary == "slide" ? "boundary" : "interfaces",
                   constraints->facet_distance(mesh.coordinates()), constraints->facet_bound());

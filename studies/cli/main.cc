@@ -67,8 +67,10 @@ int run(int argc, char** argv) {
 
 /// Throws InputError if standard output cannot be written, for example on a full disk.
 void flush_stdout_or_throw() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+  if (std::fflush(stdout) != 0)
     throw InputError(std::string("cannot write to standard output: ") + std::strerror(errno));
+  if (std::ferror(stdout) != 0)  // earlier; the reason has been forgotten
+    throw InputError("cannot write to standard output: its disk may be full");
 }
 
 }  // namespace

@@ -64,7 +64,9 @@ void print_content(const fs::path& path) {
   std::vector<char> buffer(1 << 16);
   while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) ||
          stream.gcount() > 0)
-    std::fwrite(buffer.data(), 1, static_cast<std::size_t>(stream.gcount()), stdout);
+    if (const auto n = static_cast<std::size_t>(stream.gcount());
+        std::fwrite(buffer.data(), 1, n, stdout) != n)
+      throw InputError(std::string("cannot write to standard output: ") + std::strerror(errno));
 }
 
 }  // namespace smoothfem
