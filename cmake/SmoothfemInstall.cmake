@@ -7,14 +7,14 @@ set(libraries smoothfem_smoothing smoothfem_meshes smoothfem_domains smoothfem_f
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/smoothfem)
 install(TARGETS ${libraries} EXPORT smoothfem
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program NAMELINK_COMPONENT development)
-install(TARGETS smoothfem_results smoothfem_studies
+install(TARGETS smoothfem_distributed smoothfem_results smoothfem_studies
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program NAMELINK_SKIP)
 foreach(arch IN LISTS SMOOTHFEM_OTHER_ARCHS)
   install(TARGETS smoothfem_smoothing-${arch}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/${arch} COMPONENT program NAMELINK_SKIP)
 endforeach()
 file(RELATIVE_PATH libexec_to_lib /${CMAKE_INSTALL_LIBEXECDIR}/smoothfem /${CMAKE_INSTALL_LIBDIR})
-set(modules smoothfem_generate_command smoothfem_study_commands)
+set(modules smoothfem_generate_command smoothfem_piece_commands smoothfem_study_commands)
 set_target_properties(smoothfem ${modules} PROPERTIES INSTALL_RPATH $ORIGIN/${libexec_to_lib})
 install(TARGETS ${modules} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/smoothfem COMPONENT program)
 install(TARGETS smoothfem RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/smoothfem COMPONENT program)
@@ -62,7 +62,7 @@ install(DIRECTORY launcher/new_smoother launcher/new_problem DESTINATION ${CMAKE
   USE_SOURCE_PERMISSIONS)
 
 # Headers for users' smoothers, and for reading and generating meshes and for solving.
-foreach(folder base geometry getme laplacian loop mesh optimization periodic polygons quality second_order simd surface transformations)
+foreach(folder base geometry getme laplacian loop mesh optimization parts periodic polygons quality second_order simd surface transformations)
   file(GLOB headers CONFIGURE_DEPENDS smoothing/${folder}/*.h)
   install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/smoothing/${folder}
     COMPONENT development)

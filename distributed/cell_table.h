@@ -22,6 +22,12 @@ struct CellTable {
   std::span<const GlobalIndex> operator[](std::size_t c) const {
     return {corners.data() + offsets[c], offsets[c + 1] - offsets[c]};
   }
+  void reserve(std::size_t n_cells, std::size_t n_corners) {
+    numbers.reserve(n_cells);
+    tags.reserve(n_cells);
+    offsets.reserve(n_cells + 1);
+    corners.reserve(n_corners);
+  }
   void append(GlobalIndex number, int tag, std::span<const GlobalIndex> corners_of_cell) {
     numbers.push_back(number);
     tags.push_back(tag);

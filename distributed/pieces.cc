@@ -73,10 +73,10 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
     throw InputError(path.string() + ": " + what);
   };
   if (piece.dim == 2 && !is_planar(parts))
-    refuse("surface meshes in pieces cannot be smoothed; use one file and one process");
+    refuse("a surface mesh cannot be smoothed in parts; smooth one file without mpirun");
   const ElementList& cells = parts.elements[static_cast<std::size_t>(piece.dim)];
   if (!cells.midside.empty())
-    refuse("meshes of second order in pieces cannot be smoothed; use one file and one process");
+    refuse("a mesh of second order cannot be smoothed in parts; smooth one file without mpirun");
   std::vector<GlobalIndex> row;
   for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
     row.clear();
@@ -188,16 +188,19 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& pa
 }  // namespace
 
 Pieces::Pieces(const Ranks& ranks, const std::filesystem::path& path) : ranks_(ranks), path_(path) {
-  ranks_.together([&] { files_ = named_files(path); });
+  ranks_.together([&] { files_ = is_list(path) ? named_files(path) : std::vector{path}; });
 }
 
+// Shares are rounded up, so that the first rank has a piece.
 std::size_t Pieces::first_piece() const {
-  return files_.size() * static_cast<std::size_t>(ranks_.rank()) /
-         static_cast<std::size_t>(ranks_.size());
+  const auto rank = static_cast<std::size_t>(ranks_.rank()),
+             size = static_cast<std::size_t>(ranks_.size());
+  return (files_.size() * rank + size - 1) / size;
 }
 std::size_t Pieces::last_piece() const {
-  return files_.size() * static_cast<std::size_t>(ranks_.rank() + 1) /
-         static_cast<std::size_t>(ranks_.size());
+  const auto rank = static_cast<std::size_t>(ranks_.rank()),
+             size = static_cast<std::size_t>(ranks_.size());
+  return (files_.size() * (rank + 1) + size - 1) / size;
 }
 
 std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
@@ -208,6 +211,12 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
     for (std::size_t p = first_piece(); p < last_piece(); ++p) {
       pieces.push_back(take_piece(files_[p], read_mesh_parts(files_[p]), n_nodes, cells));
       n_nodes += pieces.back().points.size();
+      // Tables that grow by doubling would need three times their memory. Pieces have about equal
+      // sizes; memory that is not used is not taken.
+      if (p == first_piece()) {
+        const auto all = [&](std::size_t n) { return n / 4 * 5 * (last_piece() - p); };
+        cells.reserve(all(cells.size()), all(cells.corners.size()));
+      }
     }
   });
   const auto any = [&](const auto& holds) {
@@ -264,11 +273,12 @@ void Pieces::write(const std::filesystem::path& out,
         mesh->coordinates()[i] = entries[i].point();
         reasons.push_back(entries[i].reasons);
       }
-      write_mesh(piece_file(out, p), with_fixed_nodes(std::move(*mesh), std::move(reasons)));
+      write_mesh(is_list(path_) ? piece_file(out, p) : out,
+                 with_fixed_nodes(std::move(*mesh), std::move(reasons)));
     });
   }
   ranks_.together([&] {
-    if (!ranks_.is_root()) return;
+    if (!ranks_.is_root() || !is_list(path_)) return;
     std::vector<std::filesystem::path> written;
     for (std::size_t p = 0; p < files_.size(); ++p) written.push_back(piece_file(out, p));
     write_piece_list(out, written);

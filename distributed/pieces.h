@@ -9,28 +9,29 @@
 
 namespace smoothfem {
 
-/// A mesh in several files: VTK's .pvtu and the pieces that it names. Each cell is in one piece;
-/// nodes between pieces are in all of these. Cells are numbered in the order of the pieces. Nodes
-/// have the numbers of the array with the role GlobalIds or of `node_id`, from 0 or above, if all
-/// pieces have one of these. Otherwise nodes with equal coordinates are the same, and are numbered
-/// as they first appear.
+/// A mesh in several files: VTK's .pvtu and the pieces that it names. Any other file is a mesh of
+/// one piece, which the first rank reads. Each cell is in one piece; nodes between pieces are in
+/// all of these. Cells are numbered in the order of the pieces. Nodes have the numbers of the array
+/// with the role GlobalIds or of `node_id`, from 0 or above, if all pieces have one of these.
+/// Otherwise nodes with equal coordinates are the same, and are numbered as they first appear.
 ///
-/// Rank r reads the pieces from n r / P to n (r+1) / P - 1, one after the other. Each file is read
-/// by one rank.
+/// Rank r reads the pieces from n r / P to n (r+1) / P - 1, rounded up, one after the other. Each
+/// file is read by one rank.
 class Pieces {
  public:
   /// Reads the list of files. Collective. Throws InputError "path:line: ..." on all ranks.
   Pieces(const Ranks& ranks, const std::filesystem::path& path);
 
   const std::vector<std::filesystem::path>& files() const { return files_; }
+  static bool is_list(const std::filesystem::path& path) { return path.extension() == ".pvtu"; }
 
   /// Reads all pieces. The variant is that of their cells' dimension. Collective. Throws
   /// InputError.
   std::variant<ScatteredMesh<2>, ScatteredMesh<3>> read() const;
 
   /// Writes pieces with new coordinates, and all else as it is in the files: out.pvtu, and the
-  /// pieces as out/out_NNNN.vtu. directory: with coordinates and reasons to stay
-  /// (store_coordinates). Collective. Throws InputError.
+  /// pieces as out/out_NNNN.vtu; the only piece of another file as `out`. directory: with
+  /// coordinates and reasons to stay (store_coordinates). Collective. Throws InputError.
   template <int dim>
   void write(const std::filesystem::path& out,
              const NodeDirectory<NodeEntry<dim>>& directory) const;

@@ -192,7 +192,7 @@ class SmoothingRun {
     if (state_.mesh.topology().part() == nullptr) require_valid(in_original_order());
     throw InputError(std::to_string(quality_.n_invalid) +
                      " cells of the mesh are invalid; 'smoothfem check' names them, and "
-                     "'smoothfem smooth --untangle' repairs them, both on one rank");
+                     "'smoothfem smooth --untangle' repairs them, both without mpirun");
   }
 
   /// Reorders large meshes. Small meshes fit the cache in any order, and without reordering keep
@@ -316,7 +316,7 @@ void require_parts_taken(const Mesh<dim, spacedim>& mesh, const Method<dim, spac
   if (mesh.topology().part() == nullptr) return;
   if (any_stage(method, [](const auto& stage) { return !stage.traits().works_in_parts; }))
     throw InputError("method " + method.info.name +
-                     " needs the whole mesh on one rank; methods for a mesh in parts are " +
+                     " needs the whole mesh, without mpirun; methods for a mesh in parts are " +
                      joined(methods_for_parts<dim, spacedim>()));
 }
 

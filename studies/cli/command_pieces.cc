@@ -14,6 +14,7 @@
 #include "distributed/pieces.h"
 #include "fem/ranks/mpi_session.h"
 #include "meshes/io/atomic_file.h"
+#include "meshes/io/mesh_file.h"
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/method_scheme.h"
@@ -73,11 +74,6 @@ double peak_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-void require_piece_list(const std::string& path, const std::string& example) {
-  if (std::filesystem::path(path).extension() != ".pvtu")
-    throw InputError(path + " is one file; several processes need a mesh in pieces: " + example);
-}
-
 /// Throws InputError for an option that does not work on pieces.
 void refuse_options(const SmoothArguments& a) {
   const std::pair<bool, const char*> given[]{{!a.from.empty(), "--from"},
@@ -97,8 +93,8 @@ void refuse_options(const SmoothArguments& a) {
   for (const auto& [is_given, option] : given)
     if (is_given)
       throw InputError(std::string(option) +
-                       " does not work on a mesh in pieces; leave it out, or use one file and one "
-                       "process");
+                       " does not work on a mesh in parts; leave it out, or use one file without "
+                       "mpirun");
 }
 
 template <int dim>
@@ -225,14 +221,18 @@ std::vector<std::size_t> counts_of(const std::string& text) {
 void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments) {
   using namespace smoothfem;
   on_ranks([&](const Ranks& ranks) {
-    require_piece_list(arguments.in,
-                       "'smoothfem convert " + arguments.in + " mesh.pvtu --pieces 8' writes one");
     SmoothArguments all = arguments;
     if (all.out.empty()) {
       std::filesystem::path path = all.in;
-      all.out = path.replace_filename(path.stem().string() + "_smoothed.pvtu").string();
+      all.out = path.replace_filename(path.stem().string() + "_smoothed" +
+                                      (Pieces::is_list(path) ? ".pvtu" : extension_to_write(path)))
+                    .string();
     }
-    require_piece_list(all.out, "write a .pvtu file");
+    if (Pieces::is_list(all.in) != Pieces::is_list(all.out))
+      throw InputError(all.in + " and " + all.out +
+                       " must both be .pvtu files, or none of them: pieces are written as they are "
+                       "read");
+    if (!Pieces::is_list(all.out)) require_mesh_path(all.out);
     refuse_options(all);
     ranks.together([&] {
       std::error_code ignored;
@@ -252,7 +252,6 @@ void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments) {
 void smoothfem_report_pieces(const std::string& mesh, bool as_json) {
   using namespace smoothfem;
   on_ranks([&](const Ranks& ranks) {
-    require_piece_list(mesh, "'smoothfem convert " + mesh + " mesh.pvtu --pieces 8' writes one");
     share_cores(0);
     auto scattered = Pieces(ranks, mesh).read();
     std::visit(
@@ -284,7 +283,9 @@ void smoothfem_report_pieces(const std::string& mesh, bool as_json) {
 void smoothfem_generate_box(const smoothfem::BoxArguments& arguments) {
   using namespace smoothfem;
   on_ranks([&](const Ranks& ranks) {
-    require_piece_list(arguments.out, "write a .pvtu file");
+    if (!Pieces::is_list(arguments.out))
+      throw InputError("the domain box is written in pieces; name a .pvtu file, not " +
+                       arguments.out);
     const auto counts = counts_of(arguments.cells);
     BoxParameters parameters{
         .splits = arguments.split == "tetrahedra" || arguments.split == "triangles",

@@ -294,8 +294,9 @@ void report_quality(QualityArguments arguments) {
   if (works_on_pieces(arguments.in)) {
     if (!arguments.histogram.empty() || !arguments.mark.empty() || !arguments.metrics.empty())
       throw InputError(
-          "--histogram, --mark and --metrics do not work on a mesh in pieces; leave them out, or "
-          "use one file and one process");
+          "--histogram, --mark and --metrics do not work on a mesh in parts; leave them out, or "
+          "use "
+          "one file without mpirun");
     return report_pieces(arguments.in, arguments.json);
   }
   if (!arguments.histogram.empty()) require_histogram_path(arguments.histogram);

@@ -21,8 +21,8 @@ struct BoxArguments {
   bool quiet = false;
 };
 
-/// True if a command works on pieces: the mesh is a .pvtu file, or mpirun has started several
-/// processes.
+/// True if a command works on pieces: the mesh is a .pvtu file, or mpirun has started the program,
+/// also as a single process, which then makes the same mesh as several.
 bool works_on_pieces(const std::string& mesh);
 
 void smooth_pieces(const SmoothArguments& arguments);
