@@ -35,18 +35,18 @@ TEST_F(SmallResume, MeshesInPartsAreTheSameOnAnyNumberOfRanks) {
   ASSERT_EQ(on(2, {"generate", "box", "--cells", "5,4,6", "--displacement", "0.16", "--pieces", "3",
                    "-o", path("box.pvtu")}),
             0);
-  const std::string piece = "box/box_0001.vtu";  // a mesh in one file
+  const std::string single = "grid.mesh";  // a mesh in one file
   for (const int n : {1, 2}) {
     const std::string number = std::to_string(n);
     ASSERT_EQ(on(n, {"smooth", path("box.pvtu"), "-m", "getme-simultaneous", "-o",
                      path("all" + number + ".pvtu")}),
               0);
-    ASSERT_EQ(
-        on(n, {"smooth", path(piece), "-m", "smart-laplace", "-o", path("one" + number + ".vtu")}),
-        0);
+    ASSERT_EQ(on(n, {"smooth", path(single), "-m", "smart-laplace", "-o",
+                     path("one" + number + ".mesh")}),
+              0);
   }
-  EXPECT_EQ(content_of(file("one2.vtu")), content_of(file("one1.vtu")));
-  EXPECT_NE(content_of(file("one2.vtu")), content_of(file(piece)));
+  EXPECT_EQ(content_of(file("one2.mesh")), content_of(file("one1.mesh")));
+  EXPECT_NE(content_of(file("one2.mesh")), content_of(file(single)));
   for (const std::string number : {"0", "1", "2"})
     EXPECT_EQ(content_of(file("all2/all2_000" + number + ".vtu")),
               content_of(file("all1/all1_000" + number + ".vtu")));
