@@ -8,29 +8,26 @@
 
 namespace smoothfem {
 
-namespace {
-
-constexpr const char* study_commands = "smoothfem_study_commands.so";
-constexpr const char* generate_command = "smoothfem_generate_command.so";
-
-/// Returns the function that a module has for a command. The module stays loaded, because its
-/// libraries have registered the things that users name. Its symbols are global, because Open MPI
-/// loads components that need them.
-void (*added_by_module(const Command& command))(CLI::App&) {
-  const auto file = std::filesystem::canonical("/proc/self/exe").parent_path() / command.module;
-  void* module = dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL);
-  void* add =
-      module ? dlsym(module, ("smoothfem_add_" + command.name + "_command").c_str()) : nullptr;
-  if (!add) throw InputError(std::string(dlerror()) + "; install the program anew");
-  return reinterpret_cast<void (*)(CLI::App&)>(add);
+void* load_module(const char* module) {
+  const auto folder = std::filesystem::canonical("/proc/self/exe").parent_path();
+  // First of all Gmsh: its hundred libraries then look their symbols up only in each other, not in
+  // those of deal.II, too.
+  dlopen((folder / generate_module).c_str(), RTLD_LAZY | RTLD_LOCAL);
+  void* loaded = dlopen((folder / module).c_str(), RTLD_LAZY | RTLD_GLOBAL);
+  if (!loaded) throw InputError(std::string(dlerror()) + "; install the program anew");
+  return loaded;
 }
 
-}  // namespace
+void* function_of_module(const char* module, const std::string& name) {
+  void* function = dlsym(load_module(module), name.c_str());
+  if (!function) throw InputError(std::string(dlerror()) + "; install the program anew");
+  return function;
+}
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> all{
       {"study", "run a study: tables, figures and meshes; resumes an interrupted run", nullptr,
-       study_commands},
+       study_module},
       {"smooth", "smooth a mesh file", add_smooth_command},
       {"quality", "quality numbers of a mesh file; exit code 2 if it has invalid cells",
        add_quality_command},
@@ -39,13 +36,13 @@ const std::vector<Command>& commands() {
        "repair a mesh file: direction of cells, coincident and unused nodes, doubled cells",
        add_repair_command},
       {"convert", "write a mesh file in another format, and name the losses", add_convert_command},
-      {"generate", "generate and distort the mesh of a domain", nullptr, generate_command},
+      {"generate", "generate and distort the mesh of a domain", nullptr, generate_module},
       {"list", "list methods with parameters and sources, presets, studies, domains, formats",
-       nullptr, study_commands},
+       add_list_command},
       {"plot", "make tables and figures of a results folder anew", add_plot_command},
       {"report", "make report.html of a results folder anew", add_report_command},
       {"merge", "merge the results folders of one collection, for example of several shards",
-       nullptr, study_commands},
+       nullptr, study_module},
       {"new-smoother", "make a folder with the source of a new smoother, ready to build and to run",
        add_new_smoother_command},
       {"new-problem",
@@ -59,7 +56,8 @@ void add_command(CLI::App& app, const Command& command, bool with_options) {
   if (command.add)
     command.add(app);
   else if (with_options)
-    added_by_module(command)(app);
+    reinterpret_cast<void (*)(CLI::App&)>(
+        function_of_module(command.module, "smoothfem_add_" + command.name + "_command"))(app);
   else
     add_subcommand(app, command.name);
 }
