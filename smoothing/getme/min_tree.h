@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "smoothing/base/parallel.h"
+
 namespace smoothfem {
 
 /// Finds the lowest of many changing keys, by a tournament among the numbers 0 .. n-1. The lowest
@@ -25,7 +27,10 @@ class MinTree {
       const std::size_t next = (size + width - 1) / width;
       levels_.emplace_back(next);
       const std::size_t level = levels_.size() - 1;
-      for (std::size_t group = 0; group < next; ++group) levels_[level][group] = play(level, group);
+      parallel_for_ranges(next, grain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t group = first; group < last; ++group)
+          levels_[level][group] = play(level, group);
+      });
       size = next;
     }
   }
@@ -58,7 +63,8 @@ class MinTree {
   }
 
  private:
-  static constexpr std::size_t width = 8;  ///< players in one round
+  static constexpr std::size_t width = 8;     ///< players in one round
+  static constexpr std::size_t grain = 4096;  ///< rounds that one thread plays at a time
 
   bool before(std::uint32_t a, std::uint32_t b) const {
     return keys_[a] < keys_[b] || (keys_[a] == keys_[b] && a < b);

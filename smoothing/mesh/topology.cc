@@ -18,6 +18,8 @@ namespace smoothfem {
 
 namespace {
 
+constexpr std::size_t grain_of_cells = 4096;  ///< that one thread takes at a time
+
 /// A cell's facet: its nodes, sorted, without the smallest one, by which it is searched for.
 struct FacetKey {
   std::array<NodeIndex, 3> others;
@@ -237,28 +239,29 @@ void Topology::build_fixed(std::vector<FixedReasons> reasons) {
   for (NodeIndex i = 0; i < n_nodes(); ++i)
     if (!fixed_[i] && (part() == nullptr || part()->owns_node(i))) free_nodes_.push_back(i);
   cell_has_free_node_.resize(n_cells());
-  for (CellIndex c = 0; c < n_cells(); ++c) {
-    const auto nodes = cells_[c];
-    cell_has_free_node_[c] =
-        std::any_of(nodes.begin(), nodes.end(), [&](NodeIndex i) { return !fixed_[i]; });
-  }
+  parallel_for_ranges(n_cells(), grain_of_cells, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      bool has_free_node = false;
+      for (const NodeIndex i : cells_[c]) has_free_node |= !fixed_[i];
+      cell_has_free_node_[c] = has_free_node;
+    }
+  });
 }
 
 void Topology::build_blocks() {
   constexpr std::size_t nodes_a_block = 8192;  // the sums of these nodes fit the cache of one core
-  const std::size_t n_blocks =
-      std::min(std::max<std::size_t>(1, n_nodes() / nodes_a_block), n_cells());
-  for (std::size_t b = 0; b < n_blocks; ++b) {
-    CellBlock block{static_cast<CellIndex>(n_cells() * b / n_blocks),
-                    static_cast<CellIndex>(n_cells() * (b + 1) / n_blocks),
+  blocks_.resize(std::min(std::max<std::size_t>(1, n_nodes() / nodes_a_block), n_cells()));
+  parallel_for(blocks_.size(), [&](std::size_t b) {
+    CellBlock block{static_cast<CellIndex>(n_cells() * b / blocks_.size()),
+                    static_cast<CellIndex>(n_cells() * (b + 1) / blocks_.size()),
                     static_cast<NodeIndex>(n_nodes()), 0};
     for (CellIndex c = block.first; c < block.last; ++c)
       for (const NodeIndex node : cells_[c]) {
         block.first_node = std::min(block.first_node, node);
         block.last_node = std::max(block.last_node, node + 1);
       }
-    blocks_.push_back(block);
-  }
+    blocks_[b] = block;
+  });
 }
 
 const CompressedRows<NodeIndex>& Topology::neighbours() const {
@@ -299,12 +302,14 @@ std::shared_ptr<const Topology> Topology::reordered(
   for (NodeIndex i = 0; i < n_kept; ++i) new_node[node_order[i]] = i;
   std::shared_ptr<Topology> result(new Topology);
   result->dim_ = dim_;
-  constexpr std::size_t grain = 4096;
-  std::vector<RowOffset> offsets(n_cells() + 1, 0);
-  for (CellIndex c = 0; c < n_cells(); ++c)
-    offsets[c + 1] = offsets[c] + static_cast<RowOffset>(cells_[cell_order[c]].size());
+  std::vector<RowOffset> lengths(n_cells() + 1, 0);
+  parallel_for_ranges(n_cells(), grain_of_cells, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c)
+      lengths[c + 1] = static_cast<RowOffset>(cells_[cell_order[c]].size());
+  });
+  auto offsets = row_offsets(std::move(lengths));
   std::vector<NodeIndex> entries(offsets.back());
-  parallel_for_ranges(n_cells(), grain, [&](std::size_t first, std::size_t last) {
+  parallel_for_ranges(n_cells(), grain_of_cells, [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {
       const auto nodes = cells_[cell_order[c]];
       for (std::size_t k = 0; k < nodes.size(); ++k) entries[offsets[c] + k] = new_node[nodes[k]];

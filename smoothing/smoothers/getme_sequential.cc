@@ -120,8 +120,8 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     std::vector<double> keys(topology.n_cells(), MinTree::never);
     for (CellIndex c = 0; c < topology.n_cells(); ++c)
       if (topology.has_free_node(c)) keys[c] = assess_(state.mesh, c, state.cell_quality[c]);
-    by_quality_.build(keys);
-    by_corrected_quality_.build(std::move(keys));
+    by_quality_.build(std::move(keys));
+    by_corrected_quality_ = by_quality_;
     penalties_.assign(topology.n_cells(), 0.0);
     touched_in_.assign(topology.n_cells(), 0);
     quality_gain_ = 0.0;

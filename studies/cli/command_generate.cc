@@ -9,6 +9,7 @@
 #include "meshes/preparation/prepare_mesh.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/list_parts.h"
 #include "studies/cli/piece_commands.h"
 #include "studies/cli/standard_streams.h"
 
@@ -50,9 +51,9 @@ void write(const Mesh<dim, spacedim>& mesh, const GenerateArguments& arguments) 
               arguments.order == 2 ? " of second order" : "", mesh_quality(mesh).q_mean);
 }
 
-void list_domains() {
+void list_domains(const char* indent) {
   for (const Domain& domain : domains())
-    std::printf("%-16s %s (%s)\n", domain.name.c_str(), domain.description.c_str(),
+    std::printf("%s%-16s %s (%s)\n", indent, domain.name.c_str(), domain.description.c_str(),
                 domain.offers().c_str());
 }
 
@@ -97,6 +98,11 @@ void generate(GenerateArguments arguments) {
 }
 
 }  // namespace
+
+void smoothfem_list_domains(const std::string&) {
+  std::printf("DOMAINS (generate NAME, 'domain' in study files)\n\n");
+  list_domains("  ");
+}
 
 void smoothfem_add_generate_command(CLI::App& app) {
   auto arguments = std::make_shared<GenerateArguments>();
@@ -154,7 +160,7 @@ void smoothfem_add_generate_command(CLI::App& app) {
   add_examples(*command,
                {"smoothfem generate gear --elements quadrilaterals --distort-to 0.418 -o gear.msh",
                 "smoothfem generate flange --elements hexahedra -o flange.vtu"});
-  command->callback([arguments] { arguments->list ? list_domains() : generate(*arguments); });
+  command->callback([arguments] { arguments->list ? list_domains("") : generate(*arguments); });
 }
 
 }  // namespace smoothfem

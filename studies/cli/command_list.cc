@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "fem/solutions/manufactured_solution.h"
-#include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/metrics/metric.h"
 #include "smoothing/base/find_named.h"
@@ -17,29 +14,25 @@
 #include "smoothing/transformations/catalogue.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/list_columns.h"
-#include "studies/framework/definition/find_study.h"
-#include "studies/framework/definition/study.h"
-#include "studies/kinds/study_kinds.h"
+#include "studies/cli/list_parts.h"
 
 namespace smoothfem {
 
-namespace {
-
-struct ListArguments {
-  std::string what;               ///< a part or a method; empty: everything
-  std::filesystem::path studies;  ///< empty: the built-in studies
-  std::string kind;               ///< of the study keys; empty: all
-  std::string columns;            ///< CSV file; empty: all
-};
-
-/// Prints a parameter with its range and the origin of its default. only_for: the kind of meshes,
-/// if only one has the parameter.
 void list_parameter(const Parameter& parameter, const std::string& origin, const char* only_for) {
   const std::string range = range_text(parameter);
   std::printf("      %-40s %-8s %s%s%s%s\n", parameter.name.c_str(), value_text(parameter).c_str(),
               parameter.description.c_str(), range.empty() ? "" : ("; " + range).c_str(),
               origin.c_str(), only_for);
 }
+
+namespace {
+
+struct ListArguments {
+  std::string what;     ///< a part or a method; empty: everything
+  std::string studies;  ///< folder; empty: the built-in studies
+  std::string kind;     ///< of the study keys; empty: all
+  std::string columns;  ///< CSV file; empty: all
+};
 
 /// Returns the origin of the default of a method's parameter, for its line; empty if not known.
 template <int dim>
@@ -131,51 +124,6 @@ void list_preset(const Preset& preset) {
                 text_of(setting.origin).c_str(), setting.dim == 2 ? "planar" : "volume");
 }
 
-void list_studies(const std::filesystem::path& folder) {
-  std::printf("STUDIES (study NAME, or FILE for your own)\n\n");
-  for (const auto& file : study_files(folder))
-    std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_any_study(file).header.title.c_str(),
-                file.c_str());
-}
-
-void list_domains() {
-  std::printf("DOMAINS (generate NAME, 'domain' in study files)\n\n");
-  for (const auto& domain : domains())
-    std::printf("  %-16s %s (%s)\n", domain.name.c_str(), domain.description.c_str(),
-                domain.offers().c_str());
-}
-
-void list_solutions() {
-  std::printf("SOLUTIONS ('solution' in study files)\n\n");
-  for (const int dimension : {2, 3})
-    with_dimension(dimension, [&]<int dim>() {
-      for (const auto& solution : manufactured_solutions<dim>())
-        std::printf("  %-16s %s u = %s (%s)\n", solution.name.c_str(),
-                    dim == 2 ? "planar:" : "volume:", solution.formula.c_str(),
-                    solution.source.c_str());
-    });
-}
-
-/// Prints the solvers with their parameters and numbers in the plane; in space they are alike.
-void list_solvers() {
-  std::printf(
-      "SOLVERS ('solvers' in study files)\n\n  %s: the program's own, for the problem of the "
-      "study file: -div(A grad u) = f\n",
-      poisson_label);
-  for (const auto& info : solver_catalogue()) {
-    const auto solver = make_solver<2>(info.name);
-    std::printf("\n  %s: %s\n      %s. Source: %s.\n", info.name.c_str(), info.title.c_str(),
-                info.description.c_str(), info.source.c_str());
-    for (const auto& parameter : solver->parameters()) list_parameter(parameter, "", "");
-    for (const auto& key : solver->keyed_parameters())
-      std::printf("      %-40s one value for each name: set %s NAME = VALUE\n", key.c_str(),
-                  key.c_str());
-    for (const auto& number : solver->numbers())
-      std::printf("      records %-32s %s%s\n", number.name.c_str(), number.description.c_str(),
-                  number.unit.empty() ? "" : (" [" + number.unit + "]").c_str());
-  }
-}
-
 void list_metrics() {
   std::printf("METRICS (quality --metrics, 'metrics' in study files)\n\n");
   for (const auto& metric : metric_catalogue())
@@ -196,16 +144,26 @@ struct Part {
   std::function<void()> print, in_short;
 };
 
-std::vector<Part> parts(const std::filesystem::path& studies) {
-  const auto print_studies = [studies] {
-    list_studies(studies.empty() ? built_in_studies() : studies);
+/// Returns the printer of a part that only a module knows. what: see list_parts.h
+std::function<void()> in_module(const char* module, const std::string& part,
+                                const std::string& what = "") {
+  return [=] {
+    const auto name = "smoothfem_list_" + part;
+    reinterpret_cast<void (*)(const std::string&)>(function_of_module(module, name))(what);
   };
+}
+
+std::vector<Part> parts(const std::string& studies) {
+  const auto print_studies = in_module(study_module, "studies", studies);
+  const auto print_domains = in_module(generate_module, "domains");
+  const auto print_solutions = in_module(study_module, "solutions");
+  const auto print_solvers = in_module(study_module, "solvers");
   return {{"methods", list_methods, list_method_names},
           {"presets", list_presets, list_presets},
           {"studies", print_studies, print_studies},
-          {"domains", list_domains, list_domains},
-          {"solutions", list_solutions, list_solutions},
-          {"solvers", list_solvers, list_solvers},
+          {"domains", print_domains, print_domains},
+          {"solutions", print_solutions, print_solutions},
+          {"solvers", print_solvers, print_solvers},
           {"metrics", list_metrics, list_metrics},
           {"transformations", list_transformations, list_transformations},
           {"formats", list_formats, list_formats}};
@@ -242,21 +200,9 @@ void list_what(const std::string& what, const std::vector<Part>& all) {
                    choose_one_of(names) + ", or a method, or a preset");
 }
 
-/// Prints the keys of a kind of studies; of all kinds, the default one first, for an empty name.
-void list_study_keys(const std::string& wanted) {
-  std::vector<std::string> names{default_study_kind};
-  for (const auto& kind : study_kinds())
-    if (kind.name != default_study_kind) names.push_back(kind.name);
-  if (!wanted.empty()) names = {find_named("study kind", wanted, names)};
-  for (const auto& name : names)
-    for (const auto& kind : study_kinds())
-      if (kind.name == name)
-        std::printf("# Keys of studies of the kind %s\n%s\n", name.c_str(), kind.keys().c_str());
-}
-
 }  // namespace
 
-void smoothfem_add_list_command(CLI::App& app) {
+void add_list_command(CLI::App& app) {
   auto arguments = std::make_shared<ListArguments>();
   auto* command = add_subcommand(app, "list");
   command->add_option("what", arguments->what,
@@ -278,7 +224,7 @@ void smoothfem_add_list_command(CLI::App& app) {
                        "the columns of the CSV files of results, or of one, such as summary.csv")
           ->expected(0, 1)
           ->type_name("[FILE]");
-  add_plugin_option(*command);
+  add_plugin_option(*command, study_module);
   add_examples(*command,
                {"smoothfem list methods", "smoothfem list getme", "smoothfem list thesis-5.4",
                 "smoothfem list --study-keys smoothing", "smoothfem list --columns summary.csv"});
@@ -288,7 +234,7 @@ void smoothfem_add_list_command(CLI::App& app) {
       return;
     }
     if (study_keys->count() > 0) {
-      list_study_keys(arguments->kind);
+      in_module(study_module, "study_keys", arguments->kind)();
       return;
     }
     const auto all = parts(arguments->studies);

@@ -249,7 +249,7 @@ void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments) {
   });
 }
 
-void smoothfem_report_pieces(const std::string& mesh, bool as_json) {
+void smoothfem_report_pieces(const std::string& mesh, const bool& as_json) {
   using namespace smoothfem;
   on_ranks([&](const Ranks& ranks) {
     share_cores(0);

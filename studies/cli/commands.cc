@@ -13,11 +13,12 @@ CLI::App* add_subcommand(CLI::App& app, const std::string& name) {
   return app.add_subcommand(name, known->description);
 }
 
-void add_plugin_option(CLI::App& command) {
+void add_plugin_option(CLI::App& command, const char* module) {
   command
       .add_option_function<std::vector<std::string>>(
           "--plugin",
-          [](const std::vector<std::string>& libraries) {
+          [module](const std::vector<std::string>& libraries) {
+            if (module) load_module(module);
             for (const auto& library : libraries) load_plugin(library);
           },
           "shared library with your methods (see new-smoother)")

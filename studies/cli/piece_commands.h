@@ -34,6 +34,6 @@ void generate_box(const BoxArguments& arguments);
 /// The functions of the module.
 extern "C" {
 void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments);
-void smoothfem_report_pieces(const std::string& mesh, bool as_json);
+void smoothfem_report_pieces(const std::string& mesh, const bool& as_json);
 void smoothfem_generate_box(const smoothfem::BoxArguments& arguments);
 }

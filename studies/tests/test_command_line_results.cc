@@ -171,6 +171,18 @@ TEST_F(Results, ListHasParts) {
   EXPECT_THAT(smoothfem({"list"}).out, HasSubstr(all + smoothfem({"list", "formats"}).out));
 }
 
+TEST_F(Results, ListLoadsOnlyTheLibrariesOfItsPart) {
+  const auto loaded = [&](const std::string& part) {
+    const std::string command = "LD_DEBUG=files " + quoted(SMOOTHFEM_PROGRAM) + " list " + part;
+    EXPECT_EQ(std::system((command + " > " + quoted(file("loaded").string()) + " 2>&1").c_str()),
+              0);
+    return content_of(file("loaded"));
+  };
+  EXPECT_THAT(loaded("methods"), AllOf(HasSubstr("libsmoothfem"), Not(HasSubstr("libgmsh")),
+                                       Not(HasSubstr("libdeal"))));
+  EXPECT_THAT(loaded("domains"), AllOf(HasSubstr("libgmsh"), Not(HasSubstr("libdeal"))));
+}
+
 TEST_F(Results, StudyKeysBeginWithWhatMostStudiesSet) {
   const std::string all = smoothfem({"list", "--study-keys"}).out;
   EXPECT_TRUE(all.starts_with("# Keys of studies of the kind smoothing\n"));
