@@ -21,8 +21,11 @@ def read_grids(results, report):
 def sorted_grids(results, report):
     """Like read_grids, but raises NoVtk."""
     planar, volume, surface, missing, unknown = {}, {}, {}, [], []
+    failed = results.failures
     for mesh in results.meshes:
         for method in (INITIAL, *results.methods):
+            if (mesh, method) in failed:  # its file has the initial mesh
+                continue
             path = results.mesh_file(mesh, method)
             if not path.exists():
                 missing.append(path.name)
@@ -36,6 +39,8 @@ def sorted_grids(results, report):
                 unknown.append(path.name)
             else:
                 kind[mesh, method] = grid
+    if failed:
+        report(f"Not drawn, because the method failed: {', '.join(f'{method} on {mesh}' for mesh, method in failed)}.")
     for names, reason in ((missing, "are missing"),
                           (unknown, "have cells of other kinds or lack `mean_ratio`")):
         if names:
