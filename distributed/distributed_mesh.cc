@@ -211,6 +211,11 @@ DistributedMesh<dim> distribute(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   MeshLabels labels;
   labels.part =
       make_rank_part(ranks, numbers, nodes.owners, std::move(owns_cell), mesh.n_cells, n_nodes);
+  std::vector<std::uint8_t> is_neighbour(static_cast<std::size_t>(ranks.size()), 0);
+  for (const int owner : nodes.owners)
+    is_neighbour[static_cast<std::size_t>(owner)] = owner != ranks.rank();
+  const auto n_neighbours =
+      static_cast<std::size_t>(std::count(is_neighbour.begin(), is_neighbour.end(), 1));
   auto rows = local_rows(mesh.cells, nodes.numbers);
   const auto& tags = mesh.cells.tags;
   if (std::any_of(tags.begin(), tags.end(), [&](int tag) { return tag != tags.front(); }))
@@ -225,7 +230,7 @@ DistributedMesh<dim> distribute(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   for (const auto& x : mesh.nodes.ask(numbers, [](const NodeEntry<dim>& entry) { return entry.x; }))
     points.push_back(Point<dim>(x.data()));
   return {Mesh<dim>(std::move(topology), std::move(points)), std::move(numbers), n_nodes,
-          std::move(mesh.nodes)};
+          n_neighbours, std::move(mesh.nodes)};
 }
 
 template <int dim>

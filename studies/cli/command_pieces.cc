@@ -126,15 +126,17 @@ std::string parts_text(const Ranks& ranks, const DistributedMesh<dim>& mesh) {
   double n_own = 0.0, n_copied_nodes = 0.0;
   for (CellIndex c = 0; c < mesh.part.n_cells(); ++c) n_own += part.owns_cell(c);
   for (NodeIndex i = 0; i < mesh.part.n_nodes(); ++i) n_copied_nodes += !part.owns_node(i);
-  const double most = ranks.max(n_own);
+  const double most = ranks.max(n_own),
+               most_neighbours = ranks.max(static_cast<double>(mesh.n_neighbours));
   char text[200];
   std::snprintf(text, sizeof text,
                 "%zu nodes and %zu cells on %d %s; the largest part has %.3g times its share of "
-                "the cells, and at most %.0f copied nodes",
+                "the cells; at most %.0f copied nodes, of %.0f %s",
                 mesh.n_nodes, part.n_cells_of_whole(), ranks.size(),
                 ranks.size() == 1 ? "process" : "processes",
                 most * ranks.size() / static_cast<double>(part.n_cells_of_whole()),
-                ranks.max(n_copied_nodes));
+                ranks.max(n_copied_nodes), most_neighbours,
+                most_neighbours == 1.0 ? "process" : "processes");
   return text;
 }
 

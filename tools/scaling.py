@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Smooths boxes of tetrahedra in parts, on several processes, and writes times, memory and what the processes exchange.
+
+    scaling.py SOURCE PROGRAM OUT.md [--huge]
+
+PROGRAM: bin/smoothfem, built from SOURCE. Takes ten minutes, 4 GiB of memory and 2 GB of disk in TMPDIR. --huge: also 2e8 cells on two
+processes, which takes another ten minutes, 21 GiB of memory and 27 GB of disk."""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from datetime import date
+from pathlib import Path
+from statistics import median
+
+from speed import commit_of, cpu
+
+HEADER = """# Scaling
+
+Output of `./run bench scaling` on {date}, commit {commit}: {cpu}, {cores} cores. Boxes of tetrahedra, whose nodes inside are displaced by up to 0.15
+edges, smoothed by `getme-simultaneous` in parts. It ends after {iterations} iterations on all of them.
+
+## Times and memory
+
+Medians of {repetitions} runs, in turn. The time of an iteration is that of the whole loop, divided by iterations and cells. Memory is that of the
+process that needs most. Its limit: 1.3 times the memory of one process, divided by the processes, and 200 MB.
+
+| cells | processes | threads each | read, s | distribute, s | iteration, ns a cell | GiB a process | limit, GiB |
+|--:|--:|--:|--:|--:|--:|--:|--:|
+"""
+WEAK = """
+## Exchange
+
+About {cells:,} cells a process, on more processes than cores, so that only counts have a meaning. An iteration sends 24 bytes for each copied
+node, in three messages for each neighbour.
+
+| processes | cells | largest share | copied nodes, most | neighbours, most | kB an iteration, most |
+|--:|--:|--:|--:|--:|--:|
+"""
+REPETITIONS = 3
+EDGE = 119  # cubes along an edge, with six tetrahedra each: 1.0e7 cells
+HUGE_EDGE = 322  # 2.0e8 cells
+CASES = ((1, 1), (1, 2), (2, 1), (4, 1))  # processes, threads of each
+CELLS_A_PROCESS = 20000
+PROCESSES = (1, 2, 4, 8, 16, 32, 64)
+NUMBERS = re.compile(
+    r"and (?P<cells>\d+) cells on .* has (?P<share>[\d.e+]+) times .* at most (?P<copies>\d+) copied nodes, of (?P<neighbours>\d+) "
+    r".*: (?P<iterations>\d+) iterations in (?P<loop>[\d.e+-]+) s "
+    r".*seconds: (?P<read>[\d.e+-]+) to read, (?P<distribute>[\d.e+-]+) to distribute, .* at most (?P<gib>[\d.e+-]+) GiB", re.DOTALL)
+
+
+def run(program, processes, *words):
+    """Runs a command on some processes; returns its output."""
+    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_WAIT_POLICY": "passive"}
+    command = ["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-np", str(processes), program]
+    return subprocess.run([*command, *map(str, words)], env=environment, capture_output=True, text=True, check=True).stdout
+
+
+def make_box(program, path, edges, pieces):
+    """Writes a box in pieces."""
+    run(program, 2, "generate", "box", "--cells", ",".join(map(str, edges)), "--displacement", 0.15, "--pieces", pieces, "-o", path)
+
+
+def smoothed(program, path, processes, threads):
+    """Smooths a box; returns the numbers that the program prints, by name."""
+    text = run(program, processes, "smooth", path, "-m", "getme-simultaneous", "--threads", threads, "-o", path.with_name("smoothed.pvtu"))
+    return {name: float(value) for name, value in NUMBERS.search(text).groupdict().items()}
+
+
+def time_row(runs, processes, threads, whole_gib):
+    """A line of the table of times."""
+    def middle(name):
+        return median(one[name] for one in runs)
+    cells, gib = middle("cells"), middle("gib")
+    limit = 1.3 * whole_gib / processes + 0.2e9 / 2**30 if whole_gib else float("nan")
+    return (f"| {cells:,.0f} | {processes} | {threads} | {middle('read'):.1f} | {middle('distribute'):.1f} | "
+            f"{1e9 * middle('loop') / middle('iterations') / cells:.1f} | {gib:.2f} | {limit:.2f} |\n").replace("nan", "–")
+
+
+def pages(source, program, folder, is_huge):
+    """Yields the parts of the text as they are measured."""
+    box = folder / "box.pvtu"
+    make_box(program, box, (EDGE,) * 3, 16)
+    runs = {case: [] for case in CASES}
+    for _ in range(REPETITIONS):
+        for case in CASES:
+            runs[case].append(smoothed(program, box, *case))
+    whole_gib = median(one["gib"] for one in runs[CASES[0]])
+    yield HEADER.format(date=date.today(), commit=commit_of(source), cpu=cpu(), cores=os.cpu_count(), repetitions=REPETITIONS,
+                        iterations="{:.0f}".format(runs[CASES[0]][0]["iterations"]))
+    for case in CASES:
+        yield time_row(runs[case], *case, whole_gib)
+    if is_huge:
+        make_box(program, box, (HUGE_EDGE,) * 3, 64)
+        yield time_row([smoothed(program, box, 2, 1)], 2, 1, None)
+    yield WEAK.format(cells=CELLS_A_PROCESS)
+    for processes in PROCESSES:
+        edge = round((CELLS_A_PROCESS * processes / 6) ** (1 / 3))
+        make_box(program, box, (edge,) * 3, min(edge, processes))
+        found = smoothed(program, box, processes, 1)
+        yield (f"| {processes} | {found['cells']:,.0f} | {found['share']:.2f} | {found['copies']:,.0f} | {found['neighbours']:.0f} | "
+               f"{24 * found['copies'] / 1000:.0f} |\n")
+
+
+def main():
+    """Writes the text."""
+    words = [word for word in sys.argv[1:] if word != "--huge"]
+    if len(words) != 3:
+        sys.exit(__doc__)
+    source, program, out = (Path(word) for word in words)
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            text = "".join(pages(source, program, Path(folder), "--huge" in sys.argv))
+        except (OSError, subprocess.CalledProcessError) as error:
+            sys.exit(f"scaling: {error} {getattr(error, 'stderr', '')}")
+    out.write_text(text, encoding="utf-8")
+    print(text)
+
+
+if __name__ == "__main__":
+    main()
