@@ -2,8 +2,21 @@
 #include "distributed/cell_table.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace smoothfem {
+
+void sort_by_numbers(CellTable& table) {
+  if (std::is_sorted(table.numbers.begin(), table.numbers.end())) return;
+  std::vector<std::uint32_t> order(table.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return table.numbers[a] < table.numbers[b]; });
+  CellTable sorted;
+  sorted.reserve(table.size(), table.corners.size());
+  for (const std::uint32_t c : order) sorted.append(table.numbers[c], table.tags[c], table[c]);
+  table = std::move(sorted);
+}
 
 std::vector<std::uint8_t> merge_into(CellTable& table, const CellTable& others) {
   std::size_t left = table.size(), left_others = others.size();

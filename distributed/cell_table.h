@@ -37,6 +37,9 @@ struct CellTable {
   }
 };
 
+/// Sorts cells by their numbers, which may be in any order before.
+void sort_by_numbers(CellTable& table);
+
 /// Merges cells into a table, in its memory. Both are sorted and have no number in common. Returns
 /// for each cell of the result whether it was in `table` before.
 std::vector<std::uint8_t> merge_into(CellTable& table, const CellTable& others);

@@ -71,9 +71,9 @@ struct Answers {
   }
 };
 
-/// Returns the new rank of each run.
+/// Returns the part of each run, from 0 to n_parts - 1.
 template <int dim>
-std::vector<int> bisected(const Ranks& ranks, const std::vector<Run<dim>>& runs) {
+std::vector<int> bisected(const Ranks& ranks, const std::vector<Run<dim>>& runs, int n_parts) {
   Answers<dim> answers{runs, ranks.exclusive_scan(runs.size())};
   float version = 0.0;
   Zoltan_Initialize(0, nullptr, &version);
@@ -84,6 +84,7 @@ std::vector<int> bisected(const Ranks& ranks, const std::vector<Run<dim>>& runs)
                                     {"RETURN_LISTS", "PARTS"},
                                     {"IMBALANCE_TOL", "1.01"}})
     zoltan.Set_Param(name, value);
+  zoltan.Set_Param("NUM_GLOBAL_PARTS", std::to_string(n_parts));
   zoltan.Set_Num_Obj_Fn(Answers<dim>::n_runs, &answers);
   zoltan.Set_Obj_List_Fn(Answers<dim>::numbers, &answers);
   zoltan.Set_Num_Geom_Fn(Answers<dim>::n_coordinates, &answers);
@@ -112,7 +113,7 @@ ScatteredMesh<dim> balanced(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   if (static_cast<double>(most) * ranks.size() <= tolerance * static_cast<double>(mesh.n_cells))
     return mesh;
   const auto runs = make_runs(mesh);
-  const std::vector<int> to = bisected(ranks, runs);
+  const std::vector<int> to = bisected(ranks, runs, ranks.size());
   std::vector<std::vector<GlobalIndex>> sent(static_cast<std::size_t>(ranks.size()));
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (std::size_t c = runs[i].first; c < runs[i].last; ++c)
@@ -122,6 +123,20 @@ ScatteredMesh<dim> balanced(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   return mesh;
 }
 
+template <int dim>
+std::vector<int> bisected_cells(const Mesh<dim>& mesh, int n_parts) {
+  std::vector<Run<dim>> cells;
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+    Point<dim> sum = Point<dim>::Zero();
+    const auto nodes = mesh.topology().cell_nodes(c);
+    for (const NodeIndex i : nodes) sum += mesh.coordinates()[i];
+    cells.push_back({c, std::size_t{c} + 1, sum / static_cast<double>(nodes.size())});
+  }
+  return bisected(Ranks(), cells, n_parts);
+}
+
+template std::vector<int> bisected_cells(const Mesh<2>&, int);
+template std::vector<int> bisected_cells(const Mesh<3>&, int);
 template ScatteredMesh<2> balanced(const Ranks&, ScatteredMesh<2>);
 template ScatteredMesh<3> balanced(const Ranks&, ScatteredMesh<3>);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "distributed/scattered_mesh.h"
+#include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {
 
@@ -10,5 +11,10 @@ namespace smoothfem {
 /// where they are if no rank has more than 1.05 times its share. Collective.
 template <int dim>
 ScatteredMesh<dim> balanced(const Ranks& ranks, ScatteredMesh<dim> mesh);
+
+/// Returns the part of each cell of a whole mesh, from 0 to n_parts - 1. Parts have about equal
+/// numbers of cells.
+template <int dim>
+std::vector<int> bisected_cells(const Mesh<dim>& mesh, int n_parts);
 
 }  // namespace smoothfem

@@ -45,24 +45,35 @@ std::vector<std::filesystem::path> named_files(const std::filesystem::path& path
 /// What a rank keeps of one piece until all are read.
 struct ReadPiece {
   std::vector<std::int64_t> numbers{};  ///< of its nodes; empty if the file has none
+  std::vector<std::int64_t> cells{};    ///< numbers of its cells; empty if the file has none
   std::vector<Point<3>> points{};
   std::vector<FixedReasons> reasons{};
   int dim = 0;
   bool has_marks = false;
 };
 
-const MeshField* field_with_role(const FileContent& content, const std::string& role) {
-  const auto name = content.node_roles.find(role);
-  if (name == content.node_roles.end()) return nullptr;
-  for (const MeshField& field : content.node_fields)
-    if (field.name == name->second) return &field;
+/// Returns the values of the field with the role GlobalIds; null if there is none of integers.
+const std::vector<std::int64_t>* global_ids(const std::map<std::string, std::string>& roles,
+                                            const std::vector<MeshField>& fields) {
+  const auto name = roles.find("GlobalIds");
+  if (name == roles.end()) return nullptr;
+  for (const MeshField& field : fields)
+    if (field.name == name->second) return std::get_if<std::vector<std::int64_t>>(&field.values);
   return nullptr;
 }
 
 std::vector<std::int64_t> node_numbers(const MeshParts& parts) {
-  if (const MeshField* ids = field_with_role(parts.content, "GlobalIds"))
-    if (const auto* numbers = std::get_if<std::vector<std::int64_t>>(&ids->values)) return *numbers;
-  return {parts.node_ids.begin(), parts.node_ids.end()};
+  const auto* ids = global_ids(parts.content.node_roles, parts.content.node_fields);
+  return ids ? *ids : std::vector<std::int64_t>(parts.node_ids.begin(), parts.node_ids.end());
+}
+
+/// Returns the numbers of the cells in the whole mesh; empty if the file has none.
+std::vector<std::int64_t> cell_numbers(const MeshParts& parts, const ElementList& cells) {
+  const auto* ids = global_ids(parts.content.element_roles, parts.content.element_fields);
+  std::vector<std::int64_t> numbers;
+  for (std::size_t c = 0; ids && c < cells.nodes.size(); ++c)
+    numbers.push_back((*ids)[cells.file_positions.empty() ? c : cells.file_positions[c]]);
+  return numbers;
 }
 
 /// Takes the parts of a piece; appends its cells with node indices that begin at first_node.
@@ -86,6 +97,7 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
                  row);
   }
   piece.numbers = node_numbers(parts);
+  piece.cells = cell_numbers(parts, cells);
   piece.reasons.assign(parts.coordinates.size(), 0);
   for (std::size_t d = 0; d < static_cast<std::size_t>(piece.dim); ++d) {
     const ElementList& labelled = parts.elements[d];
@@ -147,7 +159,8 @@ void number_by_coordinates(const Ranks& ranks, std::vector<ReadPiece>& pieces) {
 template <int dim>
 ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& path,
                              const std::vector<std::vector<GlobalIndex>>& numbers,
-                             std::vector<ReadPiece> pieces, CellTable cells, bool fixes_boundary) {
+                             std::vector<ReadPiece> pieces, CellTable cells, bool numbers_cells,
+                             bool fixes_boundary) {
   double largest = 0.0;
   for (const auto& of_piece : numbers)
     for (const GlobalIndex number : of_piece) largest = std::max<double>(largest, number);
@@ -159,8 +172,16 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& pa
   if (mesh.n_cells > std::numeric_limits<GlobalIndex>::max())
     throw InputError(path.string() + ": has " + std::to_string(mesh.n_cells) +
                      " cells, but at most 4294967295 are possible");
-  const auto first = static_cast<GlobalIndex>(ranks.exclusive_scan(mesh.cells.size()));
-  for (GlobalIndex& number : mesh.cells.numbers) number += first;
+  if (numbers_cells) {
+    std::size_t c = 0;
+    for (const ReadPiece& piece : pieces)
+      for (const std::int64_t number : piece.cells)
+        mesh.cells.numbers[c++] = static_cast<GlobalIndex>(number);
+    sort_by_numbers(mesh.cells);
+  } else {
+    const auto first = static_cast<GlobalIndex>(ranks.exclusive_scan(mesh.cells.size()));
+    for (GlobalIndex& number : mesh.cells.numbers) number += first;
+  }
   std::vector<GlobalIndex> given;
   std::vector<NodeEntry<dim>> entries;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -229,12 +250,15 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
     throw InputError(path_.string() + ": some pieces are planar and others have volume cells");
   if (any([](const ReadPiece& p) { return p.numbers.size() != p.points.size(); }))
     number_by_coordinates(ranks_, pieces);
-  if (any([](const ReadPiece& p) {
-        return std::any_of(p.numbers.begin(), p.numbers.end(), [](std::int64_t number) {
-          return number < 0 || number >= std::numeric_limits<GlobalIndex>::max();
-        });
+  const bool numbers_cells = !any([](const ReadPiece& p) { return p.cells.empty(); });
+  const auto is_bad = [](std::int64_t number) {
+    return number < 0 || number >= std::numeric_limits<GlobalIndex>::max();
+  };
+  if (any([&](const ReadPiece& p) {
+        return std::any_of(p.numbers.begin(), p.numbers.end(), is_bad) ||
+               std::any_of(p.cells.begin(), p.cells.end(), is_bad);
       }))
-    throw InputError(path_.string() + ": numbers of nodes must be from 0 to 4294967294");
+    throw InputError(path_.string() + ": numbers of nodes and cells must be from 0 to 4294967294");
   nodes_.clear();
   std::vector<GlobalIndex> all;
   for (ReadPiece& piece : pieces) {
@@ -245,7 +269,8 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
   for (GlobalIndex& corner : cells.corners) corner = all[corner];
   all = {};
   const auto make = [&]<int dim>() {
-    return scattered<dim>(ranks_, path_, nodes_, std::move(pieces), std::move(cells), !any_marks);
+    return scattered<dim>(ranks_, path_, nodes_, std::move(pieces), std::move(cells), numbers_cells,
+                          !any_marks);
   };
   if (any_volume) return make.template operator()<3>();
   return make.template operator()<2>();

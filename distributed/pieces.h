@@ -11,7 +11,8 @@ namespace smoothfem {
 
 /// A mesh in several files: VTK's .pvtu and the pieces that it names. Any other file is a mesh of
 /// one piece, which the first rank reads. Each cell is in one piece; nodes between pieces are in
-/// all of these. Cells are numbered in the order of the pieces. Nodes have the numbers of the array
+/// all of these. Cells have the numbers of the array with the role GlobalIds, if all
+/// pieces have one, otherwise those of their order. Nodes have the numbers of the array
 /// with the role GlobalIds or of `node_id`, from 0 or above, if all pieces have one of these.
 /// Otherwise nodes with equal coordinates are the same, and are numbered as they first appear.
 ///

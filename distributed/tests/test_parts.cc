@@ -14,6 +14,7 @@
 #include "distributed/distributed_mesh.h"
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
+#include "distributed/split.h"
 #include "fem/ranks/mpi_session.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/smooth.h"
@@ -310,6 +311,41 @@ TEST(Parts, NodesOfPiecesAreMatchedByCoordinates) {
                 std::get<VolumeMesh>(b).copied_coordinates());
     }
   });
+}
+
+/// Pieces of a mesh keep its numbers of nodes and cells, so that results are those of the whole.
+TEST(Parts, AMeshIsSplitIntoPieces) {
+  const Folder folder;
+  const auto mesh = two_materials(grid_mesh(9, GridCells::mixed), 0.4, 3);
+  all_ranks().on_root([&] {
+    write_mesh(folder / "whole.vtu", mesh);
+    write_in_pieces(mesh, 5, folder / "split.pvtu");
+  });
+  const auto points = [&](const char* name) {
+    const Pieces pieces(all_ranks(), folder / name);
+    auto parts =
+        distribute(all_ranks(), balanced(all_ranks(), std::get<ScatteredMesh<2>>(pieces.read())));
+    EXPECT_EQ(parts.part.topology().part()->n_cells_of_whole(), mesh.n_cells());
+    auto method = make_method<2>("smart-laplace");
+    smooth(parts.part, method);
+    store_coordinates(parts);
+    std::vector<GlobalIndex> numbers(mesh.n_nodes());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return parts.directory.ask(numbers, [](const auto& entry) { return entry.x; });
+  };
+  const auto of_whole = points("whole.vtu"), of_pieces = points("split.pvtu");
+  EXPECT_EQ(of_pieces, of_whole);
+  if (!all_ranks().is_root()) return;
+  std::size_t n_cells = 0, n_marked = 0;
+  for (std::size_t p = 0; p < 5; ++p) {
+    const auto piece = std::get<PlanarMesh>(read_mesh(piece_file(folder / "split.pvtu", p)).mesh);
+    n_cells += piece.n_cells();
+    n_marked += static_cast<std::size_t>(std::count(piece.topology().labels().cell_tags.begin(),
+                                                    piece.topology().labels().cell_tags.end(), 2));
+  }
+  EXPECT_EQ(n_cells, mesh.n_cells());
+  const auto& tags = mesh.topology().labels().cell_tags;
+  EXPECT_EQ(n_marked, static_cast<std::size_t>(std::count(tags.begin(), tags.end(), 2)));
 }
 
 TEST(Parts, BadPiecesAreRefusedOnAllRanks) {

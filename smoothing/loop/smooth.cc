@@ -44,7 +44,9 @@ double mean_edge_length(const Mesh<dim, spacedim>& mesh) {
   if (const MeshPart* part = mesh.topology().part()) {
     double longest = 0.0;
     for_each_edge_length(mesh, [&](double length) { longest = std::max(longest, length); });
-    OrderFreeSum sum(std::ilogb(part->max(longest)) + 1);
+    longest = part->max(longest);
+    if (!(longest > 0.0)) return 0.0;
+    OrderFreeSum sum(std::ilogb(longest) + 1);
     for_each_edge_length(mesh, [&](double length) {
       sum.add(length);
       ++n_edges;

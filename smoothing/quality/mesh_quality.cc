@@ -227,8 +227,7 @@ std::string advice(std::size_t n_inverted, std::size_t n_cells, bool is_of_secon
   if (n_inverted == n_cells) return std::string(W::all) + "; " + W::fix;
   if (is_of_second_order)
     return "their corners alone are invalid; repair them in the mesh generator, or save linear "
-           "cells "
-           "and untangle these (" +
+           "cells and untangle these (" +
            option_text("untangle") + ")";
   if (n_inverted > 0)
     return std::string(W::fix_some) + ", or untangle the mesh first (" + option_text("untangle") +

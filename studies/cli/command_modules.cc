@@ -50,6 +50,9 @@ void smooth_pieces(const SmoothArguments& arguments) {
 void report_pieces(const std::string& mesh, bool as_json) {
   call_on_pieces("smoothfem_report_pieces", mesh, as_json);
 }
+void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& out) {
+  call_on_pieces("smoothfem_split_mesh", mesh, n_pieces, out);
+}
 void generate_box(const BoxArguments& arguments) {
   call_on_pieces("smoothfem_generate_box", arguments);
 }

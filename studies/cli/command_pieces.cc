@@ -12,6 +12,7 @@
 #include "distributed/box.h"
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
+#include "distributed/split.h"
 #include "fem/ranks/mpi_session.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
@@ -307,4 +308,19 @@ void smoothfem_generate_box(const smoothfem::BoxArguments& arguments) {
       std::printf("%s: %zu cells in %zu pieces\n", arguments.out.c_str(), n_cells,
                   std::min(arguments.n_pieces, counts.back()));
   });
+}
+
+void smoothfem_split_mesh(const smoothfem::AnyMesh& mesh, const std::size_t& n_pieces,
+                          const std::string& out) {
+  using namespace smoothfem;
+  const MpiSession session;
+  std::visit(
+      [&]<int dim, int spacedim>(const Mesh<dim, spacedim>& of_kind) {
+        if constexpr (dim == spacedim)
+          write_in_pieces(of_kind, n_pieces, out);
+        else
+          throw InputError("surface meshes cannot be written in pieces; name another file than " +
+                           out);
+      },
+      mesh);
 }

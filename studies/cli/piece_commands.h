@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "smoothing/mesh/mesh.h"
 #include "studies/cli/smooth_arguments.h"
 
 /// Commands on meshes in pieces, on one process or several. They are in a module of their own,
@@ -28,6 +29,8 @@ bool works_on_pieces(const std::string& mesh);
 void smooth_pieces(const SmoothArguments& arguments);
 void report_pieces(const std::string& mesh, bool as_json);
 void generate_box(const BoxArguments& arguments);
+/// Writes a whole mesh in pieces (distributed/split.h).
+void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& out);
 
 }  // namespace smoothfem
 
@@ -36,4 +39,6 @@ extern "C" {
 void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments);
 void smoothfem_report_pieces(const std::string& mesh, const bool& as_json);
 void smoothfem_generate_box(const smoothfem::BoxArguments& arguments);
+void smoothfem_split_mesh(const smoothfem::AnyMesh& mesh, const std::size_t& n_pieces,
+                          const std::string& out);
 }
