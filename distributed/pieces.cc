@@ -52,7 +52,8 @@ struct ReadPiece {
   bool has_marks = false;
 };
 
-/// Returns the values of the field with the role GlobalIds; null if there is none of integers.
+/// Returns the values of the field with the role GlobalIds; null if there is no such field of
+/// integers.
 const std::vector<std::int64_t>* global_ids(const std::map<std::string, std::string>& roles,
                                             const std::vector<MeshField>& fields) {
   const auto name = roles.find("GlobalIds");

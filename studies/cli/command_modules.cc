@@ -40,8 +40,8 @@ void* function_of_module(const char* module, const std::string& name) {
   return function;
 }
 
-bool works_on_pieces(const std::string& mesh) {
-  return std::filesystem::path(mesh).extension() == ".pvtu" ||
+bool works_in_parts(const std::string& out) {
+  return std::filesystem::path(out).extension() == ".pvtu" ||
          std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
 }
 void smooth_pieces(const SmoothArguments& arguments) {

@@ -291,7 +291,7 @@ void report(const QualityArguments& arguments, const Mesh<dim, spacedim>& mesh,
 }
 
 void report_quality(QualityArguments arguments) {
-  if (works_on_pieces(arguments.in)) {
+  if (works_in_parts("")) {
     if (!arguments.histogram.empty() || !arguments.mark.empty() || !arguments.metrics.empty())
       throw InputError(
           "--histogram, --mark and --metrics do not work on a mesh in parts; leave them out, or "

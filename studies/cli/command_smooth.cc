@@ -234,7 +234,7 @@ void smooth_file(SmoothArguments arguments) {
   if (!arguments.fix_rule.empty()) arguments.fix = parse_fixed_nodes_rule(arguments.fix_rule);
   arguments.has_target = !arguments.target.empty();
   if (arguments.in.empty()) throw CLI::RequiredError("in");
-  if (works_on_pieces(arguments.in)) return smooth_pieces(arguments);
+  if (works_in_parts(arguments.out)) return smooth_pieces(arguments);
   const WriteTarget target = parse_write_target(arguments.to);
   if (arguments.out.empty()) arguments.out = default_output(arguments.in, target.extension);
   if (arguments.n_threads > 0) set_n_threads(arguments.n_threads);

@@ -22,9 +22,10 @@ struct BoxArguments {
   bool quiet = false;
 };
 
-/// True if a command works on pieces: the mesh is a .pvtu file, or mpirun has started the program,
-/// also as a single process, which then makes the same mesh as several.
-bool works_on_pieces(const std::string& mesh);
+/// True if a command works on parts of its mesh: it writes pieces (.pvtu), or mpirun has started the
+/// program, also as a single process, which then makes the same mesh as several. Otherwise pieces
+/// are read as one mesh. out: the mesh to write; may be empty.
+bool works_in_parts(const std::string& out);
 
 void smooth_pieces(const SmoothArguments& arguments);
 void report_pieces(const std::string& mesh, bool as_json);
