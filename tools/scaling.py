@@ -5,8 +5,10 @@
     scaling.py SOURCE PROGRAM OUT.md [--huge]
 
 PROGRAM: bin/smoothfem, built from SOURCE. Takes ten minutes, 4 GiB of memory and 2 GB of disk in TMPDIR. --huge: also 2e8 cells on two
-processes, which takes another ten minutes, 21 GiB of memory and 27 GB of disk."""
+processes, which takes another ten minutes, 21 GiB of memory and 27 GB of disk. A run that was killed goes on: what it has measured is in
+scaling.json next to bin until the end."""
 
+import json
 import os
 import re
 import subprocess
@@ -59,15 +61,30 @@ def run(program, processes, *words):
     return subprocess.run([*command, *map(str, words)], env=environment, capture_output=True, text=True, check=True).stdout
 
 
-def make_box(program, path, edges, pieces):
-    """Writes a box in pieces."""
-    run(program, 2, "generate", "box", "--cells", ",".join(map(str, edges)), "--displacement", 0.15, "--pieces", pieces, "-o", path)
+class Boxes:
+    """Smooths boxes. Numbers that are measured are kept in a file until forget()."""
 
+    def __init__(self, program, folder, commit):
+        self.program, self.box, self.commit, self.edge = program, folder / "box.pvtu", commit, None
+        self.kept = program.parent.parent / "scaling.json"
+        self.known = json.loads(self.kept.read_text(encoding="utf-8")) if self.kept.exists() else {}
 
-def smoothed(program, path, processes, threads):
-    """Smooths a box; returns the numbers that the program prints, by name."""
-    text = run(program, processes, "smooth", path, "-m", "getme-simultaneous", "--threads", threads, "-o", path.with_name("smoothed.pvtu"))
-    return {name: float(value) for name, value in NUMBERS.search(text).groupdict().items()}
+    def smoothed(self, edge, pieces, processes, threads, number=0):
+        """Smooths a box of edge^3 cubes; returns the numbers that the program prints, by name."""
+        key = f"{self.commit} {edge} {pieces} {processes} {threads} {number}"
+        if key not in self.known:
+            if self.edge != edge:
+                run(self.program, 2, "generate", "box", "--cells", f"{edge},{edge},{edge}", "--displacement", 0.15, "--pieces", pieces, "-o", self.box)
+                self.edge = edge
+            text = run(self.program, processes, "smooth", self.box, "-m", "getme-simultaneous", "--threads", threads, "-o",
+                       self.box.with_name("smoothed.pvtu"))
+            self.known[key] = {name: float(value) for name, value in NUMBERS.search(text).groupdict().items()}
+            self.kept.write_text(json.dumps(self.known), encoding="utf-8")
+        return self.known[key]
+
+    def forget(self):
+        """Call it when all is written."""
+        self.kept.unlink(missing_ok=True)
 
 
 def time_row(runs, processes, threads, whole_gib):
@@ -80,27 +97,23 @@ def time_row(runs, processes, threads, whole_gib):
             f"{1e9 * middle('loop') / middle('iterations') / cells:.1f} | {gib:.2f} | {limit:.2f} |\n").replace("nan", "–")
 
 
-def pages(source, program, folder, is_huge):
+def pages(boxes, is_huge):
     """Yields the parts of the text as they are measured."""
-    box = folder / "box.pvtu"
-    make_box(program, box, (EDGE,) * 3, 16)
     runs = {case: [] for case in CASES}
-    for _ in range(REPETITIONS):
+    for number in range(REPETITIONS):
         for case in CASES:
-            runs[case].append(smoothed(program, box, *case))
+            runs[case].append(boxes.smoothed(EDGE, 16, *case, number))
     whole_gib = median(one["gib"] for one in runs[CASES[0]])
-    yield HEADER.format(date=date.today(), commit=commit_of(source), cpu=cpu(), cores=os.cpu_count(), repetitions=REPETITIONS,
-                        iterations="{:.0f}".format(runs[CASES[0]][0]["iterations"]))
+    yield HEADER.format(date=date.today(), commit=boxes.commit, cpu=cpu(), cores=os.cpu_count(), repetitions=REPETITIONS,
+                        iterations=f"{runs[CASES[0]][0]['iterations']:.0f}")
     for case in CASES:
         yield time_row(runs[case], *case, whole_gib)
     if is_huge:
-        make_box(program, box, (HUGE_EDGE,) * 3, 64)
-        yield time_row([smoothed(program, box, 2, 1)], 2, 1, None)
+        yield time_row([boxes.smoothed(HUGE_EDGE, 64, 2, 1)], 2, 1, None)
     yield WEAK.format(cells=CELLS_A_PROCESS)
     for processes in PROCESSES:
         edge = round((CELLS_A_PROCESS * processes / 6) ** (1 / 3))
-        make_box(program, box, (edge,) * 3, min(edge, processes))
-        found = smoothed(program, box, processes, 1)
+        found = boxes.smoothed(edge, min(edge, processes), processes, 1)
         yield (f"| {processes} | {found['cells']:,.0f} | {found['share']:.2f} | {found['copies']:,.0f} | {found['neighbours']:.0f} | "
                f"{24 * found['copies'] / 1000:.0f} |\n")
 
@@ -113,10 +126,12 @@ def main():
     source, program, out = (Path(word) for word in words)
     with tempfile.TemporaryDirectory() as folder:
         try:
-            text = "".join(pages(source, program, Path(folder), "--huge" in sys.argv))
+            boxes = Boxes(program, Path(folder), commit_of(source))
+            text = "".join(pages(boxes, "--huge" in sys.argv))
         except (OSError, subprocess.CalledProcessError) as error:
             sys.exit(f"scaling: {error} {getattr(error, 'stderr', '')}")
     out.write_text(text, encoding="utf-8")
+    boxes.forget()
     print(text)
 
 

@@ -68,6 +68,7 @@ void generate(GenerateArguments arguments) {
     arguments.box.quiet = arguments.quiet;
     return generate_box(arguments.box);
   }
+  if (!is_first_process()) return;
   if (!(arguments.distort_to >= 0.0 && arguments.distort_to < 1.0))
     throw InputError("--distort-to is " + std::to_string(arguments.distort_to) +
                      ", but a mean quality lies between 0 (not distorted) and 1");

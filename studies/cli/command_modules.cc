@@ -44,6 +44,10 @@ bool works_in_parts(const std::string& out) {
   return std::filesystem::path(out).extension() == ".pvtu" ||
          std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
 }
+bool is_first_process() {
+  const char* const rank = std::getenv("OMPI_COMM_WORLD_RANK");
+  return rank == nullptr || std::atoi(rank) == 0;
+}
 void smooth_pieces(const SmoothArguments& arguments) {
   call_on_pieces("smoothfem_smooth_pieces", arguments);
 }

@@ -233,8 +233,8 @@ void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments) {
     }
     if (Pieces::is_list(all.in) != Pieces::is_list(all.out))
       throw InputError(all.in + " and " + all.out +
-                       " must both be .pvtu files, or none of them: pieces are written as they are "
-                       "read");
+                       " must both be .pvtu files, or none of them; 'smoothfem convert' writes a "
+                       "mesh in pieces");
     if (!Pieces::is_list(all.out)) require_mesh_path(all.out);
     refuse_options(all);
     ranks.together([&] {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "smoothfem_versions.h"
@@ -11,6 +14,7 @@
 #include "smoothing/base/interruption.h"
 #include "smoothing/simd/registers.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/piece_commands.h"
 
 namespace smoothfem {
 
@@ -48,6 +52,11 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "smoothfem " SMOOTHFEM_VERSION " (vector registers: " +
                                         std::string(registers()) + ")");
   app.require_subcommand(1);
+  // Processes of mpirun share the work of these commands; other commands are for one process.
+  constexpr std::array shared{"study", "smooth", "quality", "generate"};
+  if (argc > 1 && !is_first_process() &&
+      std::find(shared.begin(), shared.end(), std::string_view(argv[1])) == shared.end())
+    return 0;
   app.option_defaults()->always_capture_default();
   for (const Command& command : commands())
     add_command(app, command, argc > 1 && argv[1] == command.name);

@@ -22,10 +22,13 @@ struct BoxArguments {
   bool quiet = false;
 };
 
-/// True if a command works on parts of its mesh: it writes pieces (.pvtu), or mpirun has started the
-/// program, also as a single process, which then makes the same mesh as several. Otherwise pieces
-/// are read as one mesh. out: the mesh to write; may be empty.
+/// True if a command works on parts of its mesh: it writes pieces (.pvtu), or mpirun has started
+/// the program, also as a single process, which then makes the same mesh as several. Otherwise
+/// pieces are read as one mesh. out: the mesh to write; may be empty.
 bool works_in_parts(const std::string& out);
+
+/// False for all processes of mpirun but one.
+bool is_first_process();
 
 void smooth_pieces(const SmoothArguments& arguments);
 void report_pieces(const std::string& mesh, bool as_json);
