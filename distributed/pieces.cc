@@ -5,6 +5,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include "meshes/io/atomic_file.h"
@@ -12,6 +13,7 @@
 #include "meshes/io/mesh_file.h"
 #include "meshes/io/vtk/xml_tags.h"
 #include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/mesh/interfaces.h"
 
 namespace smoothfem {
 
@@ -77,9 +79,39 @@ std::vector<std::int64_t> cell_numbers(const MeshParts& parts, const ElementList
   return numbers;
 }
 
+/// Adds the reasons to stay that a file says: labelled elements below the cells' dimension, marks,
+/// what it requires (required_nodes() in interfaces.h), and periodic partners.
+void add_reasons(const MeshParts& parts, int dim, std::vector<FixedReasons>& reasons) {
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) {
+    const ElementList& labelled = parts.elements[d];
+    for (std::size_t e = 0; e < labelled.nodes.size(); ++e)
+      if (!labelled.tags.empty() && labelled.tags[e] != 0)
+        for (const NodeIndex node : labelled.nodes[e]) reasons[node] |= bit(FixedReason::interface);
+  }
+  for (const MeshField& field : parts.content.node_fields)
+    if ((field.name == required_field || field.name == corner_field) && field.n_components == 1)
+      for (std::size_t i = 0; i < reasons.size(); ++i)
+        if (field.number(i) != 0.0) reasons[i] |= bit(FixedReason::required);
+  for (const MeshField& field : parts.content.element_fields) {
+    if ((field.name != required_field && field.name != ridge_field) || field.n_components != 1)
+      continue;
+    for (const ElementList& list : parts.elements)
+      for (std::size_t e = 0; e < list.nodes.size(); ++e)
+        if (field.number(list.file_positions.empty() ? e : list.file_positions[e]) != 0.0)
+          for (const NodeIndex node : list.nodes[e]) reasons[node] |= bit(FixedReason::required);
+  }
+  for (const PeriodicEntity& periodic : parts.content.periodic)
+    for (const auto& pair : periodic.nodes)
+      for (const NodeIndex node : pair) reasons[node] |= bit(FixedReason::periodic);
+  if (parts.fixed)
+    for (std::size_t i = 0; i < parts.fixed->size(); ++i)
+      if ((*parts.fixed)[i]) reasons[i] |= bit(FixedReason::marked);
+}
+
 /// Takes the parts of a piece; appends its cells with node indices that begin at first_node.
 ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::size_t first_node,
                      CellTable& table) {
+  if (parts.leaves_out_unused_nodes) drop_unused_nodes(parts);  // as read_mesh() does
   ReadPiece piece{.dim = dimension_of(parts)};
   const auto refuse = [&](const std::string& what) {
     throw InputError(path.string() + ": " + what);
@@ -100,19 +132,23 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
   piece.numbers = node_numbers(parts);
   piece.cells = cell_numbers(parts, cells);
   piece.reasons.assign(parts.coordinates.size(), 0);
-  for (std::size_t d = 0; d < static_cast<std::size_t>(piece.dim); ++d) {
-    const ElementList& labelled = parts.elements[d];
-    for (std::size_t e = 0; e < labelled.nodes.size(); ++e)
-      if (!labelled.tags.empty() && labelled.tags[e] != 0)
-        for (const NodeIndex node : labelled.nodes[e])
-          piece.reasons[node] |= bit(FixedReason::interface);
-  }
+  add_reasons(parts, piece.dim, piece.reasons);
   piece.has_marks = parts.fixed && !parts.fixes_boundary_as_well;
-  if (parts.fixed)
-    for (std::size_t i = 0; i < parts.fixed->size(); ++i)
-      if ((*parts.fixed)[i]) piece.reasons[i] |= bit(FixedReason::marked);
   piece.points = std::move(parts.coordinates);
   return piece;
+}
+
+/// True if the largest number of a node is so large that a table of all numbers would be wasteful.
+bool are_sparse(const Ranks& ranks, const std::vector<ReadPiece>& pieces) {
+  constexpr std::size_t most_a_node = 16;
+  double largest = 0.0;
+  std::size_t n = 0;
+  for (const ReadPiece& piece : pieces) {
+    n += piece.points.size();
+    for (const std::int64_t number : piece.numbers)
+      largest = std::max(largest, static_cast<double>(number));
+  }
+  return ranks.max(largest) > static_cast<double>(most_a_node * ranks.sum(n));
 }
 
 /// Gives nodes of equal coordinates the number of their first appearance in the pieces.
@@ -232,6 +268,10 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
     std::size_t n_nodes = 0;
     for (std::size_t p = first_piece(); p < last_piece(); ++p) {
       pieces.push_back(take_piece(files_[p], read_mesh_parts(files_[p]), n_nodes, cells));
+      if (!is_list(path_)) {  // all nodes are here; two of them may lie in one place
+        pieces.back().numbers.resize(pieces.back().points.size());
+        std::iota(pieces.back().numbers.begin(), pieces.back().numbers.end(), std::int64_t{0});
+      }
       n_nodes += pieces.back().points.size();
       // Tables that grow by doubling would need three times their memory. Pieces have about equal
       // sizes; memory that is not used is not taken.
@@ -249,7 +289,8 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
              any_marks = any([](const ReadPiece&p) { return p.has_marks; });
   if (any_planar && any_volume)
     throw InputError(path_.string() + ": some pieces are planar and others have volume cells");
-  if (any([](const ReadPiece& p) { return p.numbers.size() != p.points.size(); }))
+  if (any([](const ReadPiece& p) { return p.numbers.size() != p.points.size(); }) ||
+      are_sparse(ranks_, pieces))
     number_by_coordinates(ranks_, pieces);
   const bool numbers_cells = !any([](const ReadPiece& p) { return p.cells.empty(); });
   const auto is_bad = [](std::int64_t number) {
