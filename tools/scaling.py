@@ -42,10 +42,24 @@ node, in three messages for each neighbour.
 | processes | cells | largest share | copied nodes, most | neighbours, most | kB an iteration, most |
 |--:|--:|--:|--:|--:|--:|
 """
+MODEL = """
+## Model
+
+An iteration takes a seconds for each cell of a process and b seconds for each copied node. More processes than cores share these. With {cells:,.0f}
+cells, one process gives a = {a:.2f} ns, and two give b = {b:.1f} ns. The others test the model:
+
+| processes | predicted, ns a cell | measured, ns a cell | measured / predicted |
+|--:|--:|--:|--:|
+"""
+LARGE = """
+So 10^9 cells on 10^4 processes, each with a core of its own, would take {total:.2f} ms an iteration: {compute:.2f} ms for {cells:,.0f} cells a process,
+and {exchange:.2f} ms for {copies:,.0f} copied nodes (those of {processes} processes above, in proportion to the surface). The model knows no
+network: its latency, for {neighbours:.0f} neighbours with three messages each and five sums over all processes, comes on top.
+"""
 REPETITIONS = 3
 EDGE = 119  # cubes along an edge, with six tetrahedra each: 1.0e7 cells
 HUGE_EDGE = 322  # 2.0e8 cells
-CASES = ((1, 1), (1, 2), (2, 1), (4, 1))  # processes, threads of each
+CASES = ((1, 1), (1, 2), (2, 1), (4, 1), (8, 1))  # processes, threads of each
 CELLS_A_PROCESS = 20000
 PROCESSES = (1, 2, 4, 8, 16, 32, 64)
 NUMBERS = re.compile(
@@ -111,11 +125,37 @@ def pages(boxes, is_huge):
     if is_huge:
         yield time_row([boxes.smoothed(HUGE_EDGE, 64, 2, 1)], 2, 1, None)
     yield WEAK.format(cells=CELLS_A_PROCESS)
+    found = None
     for processes in PROCESSES:
         edge = round((CELLS_A_PROCESS * processes / 6) ** (1 / 3))
         found = boxes.smoothed(edge, min(edge, processes), processes, 1)
         yield (f"| {processes} | {found['cells']:,.0f} | {found['share']:.2f} | {found['copies']:,.0f} | {found['neighbours']:.0f} | "
                f"{24 * found['copies'] / 1000:.0f} |\n")
+    yield from model({case: runs[case] for case in CASES if case[1] == 1}, PROCESSES[-1], found)
+
+
+def model(runs, processes, found):
+    """Yields the section on the model. found: the numbers of many processes."""
+    def middle(case, name):
+        return median(one[name] for one in runs[case])
+
+    def seconds(case):
+        return middle(case, "loop") / middle(case, "iterations")
+
+    def cores(case):
+        return min(case[0], os.cpu_count())
+    cells = middle((1, 1), "cells")
+    a = seconds((1, 1)) / cells
+    b = (cores((2, 1)) * seconds((2, 1)) - a * cells) / (2 * middle((2, 1), "copies"))
+    yield MODEL.format(cells=cells, a=1e9 * a, b=1e9 * b)
+    for case in runs:
+        if case[0] > 2:
+            predicted = (a * cells + b * case[0] * middle(case, "copies")) / cores(case)
+            yield f"| {case[0]} | {1e9 * predicted / cells:.2f} | {1e9 * seconds(case) / cells:.2f} | {seconds(case) / predicted:.2f} |\n"
+    share = 1e9 / 1e4
+    copies = found["copies"] * (share * processes / found["cells"]) ** (2 / 3)
+    yield LARGE.format(total=1e3 * (a * share + b * copies), compute=1e3 * a * share, exchange=1e3 * b * copies, cells=share, copies=copies,
+                       processes=processes, neighbours=found["neighbours"])
 
 
 def main():
