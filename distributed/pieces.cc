@@ -79,6 +79,20 @@ std::vector<std::int64_t> cell_numbers(const MeshParts& parts, const ElementList
   return numbers;
 }
 
+/// Returns flags of the cells that are copies of other pieces' cells, as ParaView marks them; empty
+/// if the file marks none.
+std::vector<bool> copied_cells(const MeshParts& parts, const ElementList& cells) {
+  constexpr int duplicate = 1;  // VTK's DUPLICATECELL
+  std::vector<bool> copied;
+  for (const MeshField& field : parts.content.element_fields)
+    if (field.name == "vtkGhostType" && field.n_components == 1)
+      for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
+        const std::size_t row = cells.file_positions.empty() ? c : cells.file_positions[c];
+        copied.push_back((static_cast<int>(field.number(row)) & duplicate) != 0);
+      }
+  return copied;
+}
+
 /// Adds the reasons to stay that a file says: labelled elements below the cells' dimension, marks,
 /// what it requires (required_nodes() in interfaces.h), and periodic partners.
 void add_reasons(const MeshParts& parts, int dim, std::vector<FixedReasons>& reasons) {
@@ -121,8 +135,12 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
   const ElementList& cells = parts.elements[static_cast<std::size_t>(piece.dim)];
   if (!cells.midside.empty())
     refuse("a mesh of second order cannot be smoothed in parts; smooth one file without mpirun");
+  const auto is_copy = copied_cells(parts, cells);
+  const auto numbers = cell_numbers(parts, cells);
   std::vector<GlobalIndex> row;
   for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
+    if (!is_copy.empty() && is_copy[c]) continue;
+    if (!numbers.empty()) piece.cells.push_back(numbers[c]);
     row.clear();
     for (const NodeIndex node : cells.nodes[c])
       row.push_back(static_cast<GlobalIndex>(first_node + node));
@@ -130,7 +148,6 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
                  row);
   }
   piece.numbers = node_numbers(parts);
-  piece.cells = cell_numbers(parts, cells);
   piece.reasons.assign(parts.coordinates.size(), 0);
   add_reasons(parts, piece.dim, piece.reasons);
   piece.has_marks = parts.fixed && !parts.fixes_boundary_as_well;

@@ -348,6 +348,39 @@ TEST(Parts, AMeshIsSplitIntoPieces) {
   EXPECT_EQ(n_marked, static_cast<std::size_t>(std::count(tags.begin(), tags.end(), 2)));
 }
 
+/// Each piece also has the cells of the other one, marked as ParaView does.
+TEST(Parts, CopiedCellsOfPiecesCountOnce) {
+  const Folder folder;
+  const auto mesh = two_materials(grid_mesh(6, GridCells::triangles), 0.3, 3);
+  all_ranks().on_root([&] {
+    std::vector<fs::path> files;
+    for (std::size_t p = 0; p < 2; ++p) {
+      std::vector<std::int64_t> types, numbers(mesh.n_nodes());
+      std::iota(numbers.begin(), numbers.end(), 0);
+      for (CellIndex c = 0; c < mesh.n_cells(); ++c) types.push_back(c % 2 == p ? 0 : 1);
+      FileContent content;
+      content.element_fields.push_back(
+          {.name = "vtkGhostType", .type = NumberType::uint8, .values = std::move(types)});
+      content.node_fields.push_back(
+          {.name = "GlobalNodeId", .type = NumberType::int64, .values = std::move(numbers)});
+      content.node_roles["GlobalIds"] = "GlobalNodeId";
+      MeshLabels labels;
+      labels.content = std::make_shared<const FileContent>(std::move(content));
+      files.push_back(piece_file(folder / "copies.pvtu", p));
+      write_mesh(files.back(), PlanarMesh(std::make_shared<const Topology>(
+                                              2, mesh.n_nodes(), mesh.topology().cells(),
+                                              mesh.topology().fixed_reasons(), std::move(labels)),
+                                          mesh.copied_coordinates()));
+    }
+    write_piece_list(folder / "copies.pvtu", files);
+  });
+  const auto parts = distribute(
+      all_ranks(), std::get<ScatteredMesh<2>>(Pieces(all_ranks(), folder / "copies.pvtu").read()));
+  EXPECT_EQ(parts.part.topology().part()->n_cells_of_whole(), mesh.n_cells());
+  EXPECT_EQ(parts.n_nodes, mesh.n_nodes());
+  EXPECT_EQ(mesh_quality(parts.part).q_min, mesh_quality(mesh).q_min);
+}
+
 TEST(Parts, BadPiecesAreRefusedOnAllRanks) {
   const Folder folder;
   write_box<2>(all_ranks(), {.n = {4, 4, 1}}, 3, folder / "box.pvtu");
