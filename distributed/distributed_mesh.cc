@@ -173,6 +173,7 @@ std::shared_ptr<const Topology> make_topology(const Ranks& ranks, int dim, std::
                                               CompressedRows<NodeIndex> cells, MeshLabels labels,
                                               std::vector<FixedReasons> reasons,
                                               bool fixes_boundary) {
+  struct OtherRankFailed {};
   std::shared_ptr<const Topology> topology;
   ranks.together([&] {
     bool is_agreed = false;
@@ -180,12 +181,13 @@ std::shared_ptr<const Topology> make_topology(const Ranks& ranks, int dim, std::
       topology = std::make_shared<const Topology>(
           dim, n_nodes, std::move(cells), std::move(labels), [&](const Topology& with_boundary) {
             is_agreed = true;
-            if (ranks.any(false)) throw InputError("another process found an error of the mesh");
+            if (ranks.any(false)) throw OtherRankFailed{};
             return reasons_in_part(with_boundary, std::move(reasons), fixes_boundary);
           });
     } catch (const InputError&) {
       if (!is_agreed) (void)ranks.any(true);
       throw;
+    } catch (const OtherRankFailed&) {  // its error is thrown on all
     }
   });
   return topology;

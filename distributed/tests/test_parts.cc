@@ -374,8 +374,8 @@ TEST(Parts, CopiedCellsOfPiecesCountOnce) {
     }
     write_piece_list(folder / "copies.pvtu", files);
   });
-  const auto parts = distribute(
-      all_ranks(), std::get<ScatteredMesh<2>>(Pieces(all_ranks(), folder / "copies.pvtu").read()));
+  auto read = std::get<ScatteredMesh<2>>(Pieces(all_ranks(), folder / "copies.pvtu").read());
+  const auto parts = distribute(all_ranks(), balanced(all_ranks(), std::move(read)));
   EXPECT_EQ(parts.part.topology().part()->n_cells_of_whole(), mesh.n_cells());
   EXPECT_EQ(parts.n_nodes, mesh.n_nodes());
   EXPECT_EQ(mesh_quality(parts.part).q_min, mesh_quality(mesh).q_min);
