@@ -184,9 +184,12 @@ std::shared_ptr<const Topology> make_topology(const Ranks& ranks, int dim, std::
             if (ranks.any(false)) throw OtherRankFailed{};
             return reasons_in_part(with_boundary, std::move(reasons), fixes_boundary);
           });
-    } catch (const InputError&) {
+    } catch (const InputError& error) {
       if (!is_agreed) (void)ranks.any(true);
-      throw;
+      throw InputError(
+          std::string(error.what()) +
+          " (numbers within a part of the mesh; 'smoothfem check' without mpirun names "
+          "those of the file)");
     } catch (const OtherRankFailed&) {  // its error is thrown on all
     }
   });
