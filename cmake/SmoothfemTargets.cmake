@@ -149,3 +149,17 @@ function(smoothfem_add_bench name)
     SMOOTHFEM_SHARED_MESHES="${PROJECT_SOURCE_DIR}/../shared/meshes")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bench)
 endfunction()
+
+# smoothfem_add_mpi_test(NAME LABELS ranks...): runs a test's program on these numbers of processes, with any number of cores;
+# also as root, for containers.
+function(smoothfem_add_mpi_test name labels)
+  add_dependencies(smoothfem_tests ${name})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  foreach(n_ranks IN LISTS ARGN)
+    add_test(NAME ${name}_${n_ranks}_ranks
+      COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${n_ranks} --oversubscribe --mca mpi_yield_when_idle 1
+              $<TARGET_FILE:${name}>)
+    set_tests_properties(${name}_${n_ranks}_ranks PROPERTIES LABELS "${labels}"
+      ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_WAIT_POLICY=passive")
+  endforeach()
+endfunction()

@@ -104,9 +104,7 @@ Mesh<dim> box_layers(const BoxParameters& parameters, std::size_t first, std::si
     }
   });
   FileContent content;
-  content.node_fields.push_back(
-      {.name = "GlobalNodeId", .type = NumberType::int64, .values = std::move(numbers)});
-  content.node_roles["GlobalIds"] = "GlobalNodeId";
+  add_global_ids("GlobalNodeId", std::move(numbers), content.node_fields, content.node_roles);
   MeshLabels labels;
   labels.content = std::make_shared<const FileContent>(std::move(content));
   const std::size_t n_nodes = points.size();
@@ -120,24 +118,18 @@ std::size_t write_box(const Ranks& ranks, const BoxParameters& parameters, std::
                       const std::filesystem::path& out) {
   const std::size_t n_layers = parameters.n[dim - 1];
   n_pieces = std::min(n_pieces, n_layers);
-  const auto share = [](std::size_t n, std::size_t i, std::size_t of) { return n * i / of; };
-  const auto rank = static_cast<std::size_t>(ranks.rank()),
-             n_ranks = static_cast<std::size_t>(ranks.size());
+  const auto first_layer = [&](std::size_t piece) { return n_layers * piece / n_pieces; };
   std::size_t n_cells = 0;
   ranks.together([&] {
-    for (std::size_t p = share(n_pieces, rank, n_ranks); p < share(n_pieces, rank + 1, n_ranks);
-         ++p) {
-      const auto mesh = box_layers<dim>(parameters, share(n_layers, p, n_pieces),
-                                        share(n_layers, p + 1, n_pieces));
+    const std::size_t end = first_piece_of(ranks, ranks.rank() + 1, n_pieces);
+    for (std::size_t p = first_piece_of(ranks, ranks.rank(), n_pieces); p < end; ++p) {
+      const auto mesh = box_layers<dim>(parameters, first_layer(p), first_layer(p + 1));
       n_cells += mesh.n_cells();
       write_mesh(piece_file(out, p), mesh);
     }
   });
   ranks.together([&] {
-    if (!ranks.is_root()) return;
-    std::vector<std::filesystem::path> files;
-    for (std::size_t p = 0; p < n_pieces; ++p) files.push_back(piece_file(out, p));
-    write_piece_list(out, files);
+    if (ranks.is_root()) write_piece_list(out, n_pieces);
   });
   return ranks.sum(n_cells);
 }

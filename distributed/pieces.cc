@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distributed/pieces.h"
 
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <numeric>
 #include <sstream>
 
 #include "meshes/io/atomic_file.h"
+#include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/mesh_file.h"
+#include "meshes/io/vtk/vtk_files.h"
 #include "meshes/io/vtk/xml_tags.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/mesh/interfaces.h"
@@ -19,30 +19,7 @@ namespace smoothfem {
 
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string() + ": cannot be read; check its name");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// Returns the files that a .pvtu file names.
-std::vector<std::filesystem::path> named_files(const std::filesystem::path& path) {
-  const std::string text = text_of(path);
-  XmlTags tags(path.string(), text);
-  std::vector<std::filesystem::path> files;
-  while (tags.next()) {
-    if (tags.tag().name != "Piece" || !tags.tag().begins) continue;
-    const auto source = tags.tag().attribute("Source");
-    if (!source) tags.fail("a piece has no Source");
-    const std::filesystem::path file(*source);
-    files.push_back(file.is_absolute() ? file : path.parent_path() / file);
-  }
-  if (files.empty())
-    throw InputError(path.string() +
-                     ": names no piece; it must be a VTK file of the type "
-                     "PUnstructuredGrid");
-  return files;
-}
+constexpr const char* global_ids_role = "GlobalIds";
 
 /// What a rank keeps of one piece until all are read.
 struct ReadPiece {
@@ -58,7 +35,7 @@ struct ReadPiece {
 /// integers.
 const std::vector<std::int64_t>* global_ids(const std::map<std::string, std::string>& roles,
                                             const std::vector<MeshField>& fields) {
-  const auto name = roles.find("GlobalIds");
+  const auto name = roles.find(global_ids_role);
   if (name == roles.end()) return nullptr;
   for (const MeshField& field : fields)
     if (field.name == name->second) return std::get_if<std::vector<std::int64_t>>(&field.values);
@@ -77,20 +54,6 @@ std::vector<std::int64_t> cell_numbers(const MeshParts& parts, const ElementList
   for (std::size_t c = 0; ids && c < cells.nodes.size(); ++c)
     numbers.push_back((*ids)[cells.file_positions.empty() ? c : cells.file_positions[c]]);
   return numbers;
-}
-
-/// Returns flags of the cells that are copies of other pieces' cells, as ParaView marks them; empty
-/// if the file marks none.
-std::vector<bool> copied_cells(const MeshParts& parts, const ElementList& cells) {
-  constexpr int duplicate = 1;  // VTK's DUPLICATECELL
-  std::vector<bool> copied;
-  for (const MeshField& field : parts.content.element_fields)
-    if (field.name == "vtkGhostType" && field.n_components == 1)
-      for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
-        const std::size_t row = cells.file_positions.empty() ? c : cells.file_positions[c];
-        copied.push_back((static_cast<int>(field.number(row)) & duplicate) != 0);
-      }
-  return copied;
 }
 
 /// Adds the reasons to stay that a file says: labelled elements below the cells' dimension, marks,
@@ -135,12 +98,8 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
   const ElementList& cells = parts.elements[static_cast<std::size_t>(piece.dim)];
   if (!cells.midside.empty())
     refuse("a mesh of second order cannot be smoothed in parts; smooth one file without mpirun");
-  const auto is_copy = copied_cells(parts, cells);
-  const auto numbers = cell_numbers(parts, cells);
   std::vector<GlobalIndex> row;
   for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
-    if (!is_copy.empty() && is_copy[c]) continue;
-    if (!numbers.empty()) piece.cells.push_back(numbers[c]);
     row.clear();
     for (const NodeIndex node : cells.nodes[c])
       row.push_back(static_cast<GlobalIndex>(first_node + node));
@@ -148,6 +107,7 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
                  row);
   }
   piece.numbers = node_numbers(parts);
+  piece.cells = cell_numbers(parts, cells);
   piece.reasons.assign(parts.coordinates.size(), 0);
   add_reasons(parts, piece.dim, piece.reasons);
   piece.has_marks = parts.fixed && !parts.fixes_boundary_as_well;
@@ -263,19 +223,12 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& pa
 }  // namespace
 
 Pieces::Pieces(const Ranks& ranks, const std::filesystem::path& path) : ranks_(ranks), path_(path) {
-  ranks_.together([&] { files_ = is_list(path) ? named_files(path) : std::vector{path}; });
+  ranks_.together([&] { files_ = is_list(path) ? files_of_pvtu(path) : std::vector{path}; });
 }
 
-// Shares are rounded up, so that the first rank has a piece.
-std::size_t Pieces::first_piece() const {
-  const auto rank = static_cast<std::size_t>(ranks_.rank()),
-             size = static_cast<std::size_t>(ranks_.size());
-  return (files_.size() * rank + size - 1) / size;
-}
-std::size_t Pieces::last_piece() const {
-  const auto rank = static_cast<std::size_t>(ranks_.rank()),
-             size = static_cast<std::size_t>(ranks_.size());
-  return (files_.size() * (rank + 1) + size - 1) / size;
+std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces) {
+  const auto size = static_cast<std::size_t>(ranks.size());
+  return (n_pieces * static_cast<std::size_t>(rank) + size - 1) / size;
 }
 
 std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
@@ -363,9 +316,7 @@ void Pieces::write(const std::filesystem::path& out,
   }
   ranks_.together([&] {
     if (!ranks_.is_root() || !is_list(path_)) return;
-    std::vector<std::filesystem::path> written;
-    for (std::size_t p = 0; p < files_.size(); ++p) written.push_back(piece_file(out, p));
-    write_piece_list(out, written);
+    write_piece_list(out, files_.size());
   });
 }
 
@@ -376,10 +327,17 @@ std::filesystem::path piece_file(const std::filesystem::path& out, std::size_t p
   return out.parent_path() / stem / (stem + number);
 }
 
-void write_piece_list(const std::filesystem::path& out,
-                      const std::vector<std::filesystem::path>& pieces) {
-  const std::string text = text_of(pieces.front());
-  XmlTags tags(pieces.front().string(), text);
+void add_global_ids(const char* name, std::vector<std::int64_t> numbers,
+                    std::vector<MeshField>& fields, std::map<std::string, std::string>& roles) {
+  std::erase_if(fields, [&](const MeshField& field) { return field.name == name; });
+  fields.push_back({.name = name, .type = NumberType::int64, .values = std::move(numbers)});
+  roles[global_ids_role] = name;
+}
+
+void write_piece_list(const std::filesystem::path& out, std::size_t n_pieces) {
+  const std::filesystem::path first = piece_file(out, 0);
+  const std::string text = read_whole_file(first);
+  XmlTags tags(first.string(), text);
   std::ostringstream list;
   list << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
           "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
@@ -402,9 +360,10 @@ void write_piece_list(const std::filesystem::path& out,
       list << "/>\n";
     }
   }
-  for (const auto& piece : pieces)
+  for (std::size_t p = 0; p < n_pieces; ++p)
     list << "    <Piece Source=\""
-         << escaped_for_xml(piece.lexically_relative(out.parent_path()).string()) << "\"/>\n";
+         << escaped_for_xml(piece_file(out, p).lexically_relative(out.parent_path()).string())
+         << "\"/>\n";
   list << "  </PUnstructuredGrid>\n</VTKFile>\n";
   write_atomically(out, list.str());
 }

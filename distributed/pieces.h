@@ -9,6 +9,10 @@
 
 namespace smoothfem {
 
+/// Returns the first of the pieces that a rank handles, or the end if rank is the number of ranks.
+/// Shares are rounded up, so that the first rank has a piece.
+std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces);
+
 /// A mesh in several files: VTK's .pvtu and the pieces that it names. Any other file is a mesh of
 /// one piece, which the first rank reads. Each cell is in one piece; nodes between pieces are in
 /// all of these. Cells have the numbers of the array with the role GlobalIds, if all
@@ -16,14 +20,13 @@ namespace smoothfem {
 /// with the role GlobalIds or of `node_id`, from 0 or above, if all pieces have one of these.
 /// Otherwise nodes with equal coordinates are the same, and are numbered as they first appear.
 ///
-/// Rank r reads the pieces from n r / P to n (r+1) / P - 1, rounded up, one after the other. Each
-/// file is read by one rank.
+/// Each rank reads its pieces (first_piece_of()) one after the other. Each file is read by one
+/// rank.
 class Pieces {
  public:
   /// Reads the list of files. Collective. Throws InputError "path:line: ..." on all ranks.
   Pieces(const Ranks& ranks, const std::filesystem::path& path);
 
-  const std::vector<std::filesystem::path>& files() const { return files_; }
   static bool is_list(const std::filesystem::path& path) { return path.extension() == ".pvtu"; }
 
   /// Reads all pieces. The variant is that of their cells' dimension. Collective. Throws
@@ -38,8 +41,10 @@ class Pieces {
              const NodeDirectory<NodeEntry<dim>>& directory) const;
 
  private:
-  std::size_t first_piece() const;
-  std::size_t last_piece() const;
+  std::size_t first_piece() const { return first_piece_of(ranks_, ranks_.rank(), files_.size()); }
+  std::size_t last_piece() const {
+    return first_piece_of(ranks_, ranks_.rank() + 1, files_.size());
+  }
 
   Ranks ranks_;
   std::filesystem::path path_;
@@ -48,9 +53,13 @@ class Pieces {
   mutable std::vector<std::vector<GlobalIndex>> nodes_;
 };
 
-/// Writes the file that names the pieces. arrays: those of the first piece. pieces: all of them.
-void write_piece_list(const std::filesystem::path& out,
-                      const std::vector<std::filesystem::path>& pieces);
+/// Writes the file that lists the pieces at piece_file(), and the arrays of the first one.
+void write_piece_list(const std::filesystem::path& out, std::size_t n_pieces);
+
+/// Adds the numbers of nodes or elements in the whole mesh as a field with the role GlobalIds.
+/// A field of the same name is replaced.
+void add_global_ids(const char* name, std::vector<std::int64_t> numbers,
+                    std::vector<MeshField>& fields, std::map<std::string, std::string>& roles);
 
 /// Returns where a piece of out.pvtu lies: out/out_0007.vtu.
 std::filesystem::path piece_file(const std::filesystem::path& out, std::size_t piece);

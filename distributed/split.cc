@@ -2,7 +2,6 @@
 #include "distributed/split.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
@@ -26,12 +25,6 @@ MeshField rows_of(const MeshField& field, const std::vector<std::size_t>& rows) 
       },
       field.values);
   return result;
-}
-
-MeshField numbers_field(const char* name, const std::vector<std::size_t>& numbers) {
-  return {.name = name,
-          .type = NumberType::int64,
-          .values = std::vector<std::int64_t>(numbers.begin(), numbers.end())};
 }
 
 /// Makes the pieces of a mesh.
@@ -117,14 +110,10 @@ class Splitter {
       for (const MeshField& field : content->element_fields)
         result.element_fields.push_back(rows_of(field, rows));
     }
-    const auto add = [](std::vector<MeshField>& fields, std::map<std::string, std::string>& roles,
-                        const char* name, const std::vector<std::size_t>& numbers) {
-      std::erase_if(fields, [&](const MeshField& field) { return field.name == name; });
-      fields.push_back(numbers_field(name, numbers));
-      roles["GlobalIds"] = name;
-    };
-    add(result.node_fields, result.node_roles, "GlobalNodeId", nodes);
-    add(result.element_fields, result.element_roles, "GlobalCellId", elements);
+    add_global_ids("GlobalNodeId", {nodes.begin(), nodes.end()}, result.node_fields,
+                   result.node_roles);
+    add_global_ids("GlobalCellId", {elements.begin(), elements.end()}, result.element_fields,
+                   result.element_roles);
     return result;
   }
 
@@ -142,12 +131,9 @@ void write_in_pieces(const Mesh<dim>& mesh, std::size_t n_pieces,
   require_linear(mesh.topology(), "writing a mesh in pieces");
   const std::size_t n = std::min(n_pieces, mesh.n_cells());
   const Splitter<dim> splitter(mesh, bisected_cells(mesh, static_cast<int>(n)));
-  std::vector<std::filesystem::path> files;
-  for (std::size_t p = 0; p < n; ++p) {
-    files.push_back(piece_file(out, p));
-    write_mesh(files.back(), splitter.piece(static_cast<int>(p)));
-  }
-  write_piece_list(out, files);
+  for (std::size_t p = 0; p < n; ++p)
+    write_mesh(piece_file(out, p), splitter.piece(static_cast<int>(p)));
+  write_piece_list(out, n);
 }
 
 template void write_in_pieces(const Mesh<2>&, std::size_t, const std::filesystem::path&);

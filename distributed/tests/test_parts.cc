@@ -15,7 +15,7 @@
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
 #include "distributed/split.h"
-#include "fem/ranks/mpi_session.h"
+#include "fem/tests/all_ranks.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/fixed_nodes.h"
@@ -27,17 +27,13 @@ namespace smoothfem {
 namespace {
 
 namespace fs = std::filesystem;
+using test::all_ranks;
 using test::box_mesh;
 using test::BoxCells;
 using test::grid_mesh;
 using test::GridCells;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-const Ranks& all_ranks() {
-  static const Ranks ranks(MPI_COMM_WORLD);
-  return ranks;
-}
 
 /// A mesh of two materials with an interface, and distorted cells.
 template <int dim>
@@ -288,18 +284,17 @@ TEST(Parts, NodesOfPiecesAreMatchedByCoordinates) {
   const BoxParameters box{.n = {4, 3, 5}, .splits = true, .displacement = 0.16};
   write_box<3>(all_ranks(), box, 3, folder / "box.pvtu");
   all_ranks().on_root([&] {
-    std::vector<fs::path> files;
     for (std::size_t p = 0; p < 3; ++p) {
       auto mesh = std::get<VolumeMesh>(read_mesh(piece_file(folder / "box.pvtu", p)).mesh);
       auto labels = mesh.topology().labels();
       labels.content = nullptr;
-      files.push_back(piece_file(folder / "bare.pvtu", p));
-      write_mesh(files.back(), VolumeMesh(std::make_shared<const Topology>(
-                                              3, mesh.n_nodes(), mesh.topology().cells(),
-                                              mesh.topology().fixed_reasons(), std::move(labels)),
-                                          mesh.copied_coordinates()));
+      write_mesh(piece_file(folder / "bare.pvtu", p),
+                 VolumeMesh(std::make_shared<const Topology>(
+                                3, mesh.n_nodes(), mesh.topology().cells(),
+                                mesh.topology().fixed_reasons(), std::move(labels)),
+                            mesh.copied_coordinates()));
     }
-    write_piece_list(folder / "bare.pvtu", files);
+    write_piece_list(folder / "bare.pvtu", 3);
   });
   smoothed_pieces(all_ranks(), folder / "box.pvtu", folder / "a.pvtu");
   smoothed_pieces(all_ranks(), folder / "bare.pvtu", folder / "b.pvtu");
@@ -353,7 +348,6 @@ TEST(Parts, CopiedCellsOfPiecesCountOnce) {
   const Folder folder;
   const auto mesh = two_materials(grid_mesh(6, GridCells::triangles), 0.3, 3);
   all_ranks().on_root([&] {
-    std::vector<fs::path> files;
     for (std::size_t p = 0; p < 2; ++p) {
       std::vector<std::int64_t> types, numbers(mesh.n_nodes());
       std::iota(numbers.begin(), numbers.end(), 0);
@@ -366,13 +360,13 @@ TEST(Parts, CopiedCellsOfPiecesCountOnce) {
       content.node_roles["GlobalIds"] = "GlobalNodeId";
       MeshLabels labels;
       labels.content = std::make_shared<const FileContent>(std::move(content));
-      files.push_back(piece_file(folder / "copies.pvtu", p));
-      write_mesh(files.back(), PlanarMesh(std::make_shared<const Topology>(
-                                              2, mesh.n_nodes(), mesh.topology().cells(),
-                                              mesh.topology().fixed_reasons(), std::move(labels)),
-                                          mesh.copied_coordinates()));
+      write_mesh(piece_file(folder / "copies.pvtu", p),
+                 PlanarMesh(std::make_shared<const Topology>(
+                                2, mesh.n_nodes(), mesh.topology().cells(),
+                                mesh.topology().fixed_reasons(), std::move(labels)),
+                            mesh.copied_coordinates()));
     }
-    write_piece_list(folder / "copies.pvtu", files);
+    write_piece_list(folder / "copies.pvtu", 2);
   });
   auto read = std::get<ScatteredMesh<2>>(Pieces(all_ranks(), folder / "copies.pvtu").read());
   const auto parts = distribute(all_ranks(), balanced(all_ranks(), std::move(read)));
@@ -391,7 +385,7 @@ TEST(Parts, BadPiecesAreRefusedOnAllRanks) {
   EXPECT_THAT(read, ThrowsMessage<InputError>(HasSubstr("box_0002.vtu")));
   (void)all_ranks().any(false);
   all_ranks().on_root([&] { std::ofstream(folder / "box.pvtu") << "<VTKFile></VTKFile>"; });
-  EXPECT_THAT(read, ThrowsMessage<InputError>(HasSubstr("names no piece")));
+  EXPECT_THAT(read, ThrowsMessage<InputError>(HasSubstr("lists no pieces")));
 }
 
 TEST(Parts, SumsDoNotDependOnTheOrder) {
@@ -416,13 +410,5 @@ TEST(Parts, SumsDoNotDependOnTheOrder) {
 }  // namespace smoothfem
 
 int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  const smoothfem::MpiSession session;
-  if (!smoothfem::all_ranks().is_root()) {
-    auto& listeners = testing::UnitTest::GetInstance()->listeners();
-    delete listeners.Release(listeners.default_result_printer());
-  }
-  int result = RUN_ALL_TESTS();
-  MPI_Allreduce(MPI_IN_PLACE, &result, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-  return result;
+  return smoothfem::test::run_on_all_ranks(argc, argv);
 }

@@ -12,20 +12,16 @@
 #include "fem/adaptivity/energy_solver.h"
 #include "fem/materials/materials_of_mesh.h"
 #include "fem/poisson_solver.h"
-#include "fem/ranks/mpi_session.h"
 #include "fem/solvers/mesh_solver.h"
+#include "fem/tests/all_ranks.h"
 #include "fem/tests/second_order.h"
 
 namespace smoothfem {
 namespace {
 
+using test::all_ranks;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-const Ranks& all_ranks() {
-  static const Ranks ranks(MPI_COMM_WORLD);
-  return ranks;
-}
 
 /// Arguments of the root.
 template <int dim>
@@ -446,14 +442,5 @@ TEST(SeveralRanks, RefusesOnAllRanks) {
 }  // namespace smoothfem
 
 int main(int argc, char** argv) {
-  const smoothfem::MpiSession mpi;
-  testing::InitGoogleTest(&argc, argv);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  auto& listeners = testing::UnitTest::GetInstance()->listeners();
-  if (rank > 0) delete listeners.Release(listeners.default_result_printer());
-  int failed = RUN_ALL_TESTS(), failed_anywhere = 0;
-  MPI_Allreduce(&failed, &failed_anywhere, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-  if (rank == 0 && failed_anywhere != failed) std::cout << "a test failed on another rank\n";
-  return failed_anywhere;
+  return smoothfem::test::run_on_all_ranks(argc, argv);
 }

@@ -315,8 +315,7 @@ void require_targets_taken(const Mesh<dim, spacedim>& mesh, const Method<dim, sp
 
 template <int dim, int spacedim>
 void require_parts_taken(const Mesh<dim, spacedim>& mesh, const Method<dim, spacedim>& method) {
-  if (mesh.topology().part() == nullptr) return;
-  if (any_stage(method, [](const auto& stage) { return !stage.traits().works_in_parts; }))
+  if (mesh.topology().part() && !works_in_parts(method))
     throw InputError("method " + method.info.name +
                      " needs the whole mesh, without mpirun; methods for a mesh in parts are " +
                      joined(methods_for_parts<dim, spacedim>()));

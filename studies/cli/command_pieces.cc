@@ -18,10 +18,9 @@
 #include "meshes/io/mesh_file.h"
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
-#include "smoothing/loop/method_scheme.h"
-#include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/configured_method.h"
 #include "studies/cli/piece_commands.h"
 
 namespace smoothfem {
@@ -99,24 +98,7 @@ void refuse_options(const SmoothArguments& a) {
 }
 
 template <int dim>
-Method<dim> configured(const SmoothArguments& arguments) {
-  auto method = make_method<dim>(arguments.method);
-  if (!arguments.preset.empty()) apply_preset(find_preset(arguments.preset), method);
-  for (const auto& setting : arguments.settings) {
-    const auto equals = setting.find('=');
-    if (equals == std::string::npos)
-      throw InputError("--set needs key=value, not '" + setting + "'");
-    method.set(setting.substr(0, equals), setting.substr(equals + 1));
-  }
-  check_parameters(method);
-  if (!arguments.allow_worse) method.floor = 1;
-  return method;
-}
-
-DistributedMesh<2> distributed(const Ranks& ranks, ScatteredMesh<2> mesh) {
-  return distribute(ranks, balanced(ranks, std::move(mesh)));
-}
-DistributedMesh<3> distributed(const Ranks& ranks, ScatteredMesh<3> mesh) {
+DistributedMesh<dim> distributed(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   return distribute(ranks, balanced(ranks, std::move(mesh)));
 }
 
@@ -159,7 +141,8 @@ struct SmoothedParts {
 template <int dim>
 SmoothedParts<dim> smoothed(const Ranks& ranks, const SmoothArguments& arguments,
                             ScatteredMesh<dim> scattered, const Clock& clock) {
-  auto method = configured<dim>(arguments);
+  auto method = configured_method<dim>(arguments);
+  if (!arguments.allow_worse) method.floor = 1;
   auto mesh = distributed(ranks, std::move(scattered));
   const double distributed_seconds = clock.seconds();
   const std::string parts = parts_text(ranks, mesh);

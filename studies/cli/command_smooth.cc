@@ -9,12 +9,11 @@
 #include "meshes/preparation/prepare_mesh.h"
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
-#include "smoothing/loop/method_scheme.h"
-#include "smoothing/loop/preset.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/quality/cell_targets.h"
 #include "smoothing/second_order/raise_order.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/configured_method.h"
 #include "studies/cli/mesh_notes.h"
 #include "studies/cli/piece_commands.h"
 #include "studies/cli/smooth_notes.h"
@@ -24,20 +23,6 @@
 namespace smoothfem {
 
 namespace {
-
-template <int dim, int spacedim>
-Method<dim, spacedim> configured_method(const SmoothArguments& arguments) {
-  auto method = make_method<dim, spacedim>(arguments.method);
-  if (!arguments.preset.empty()) apply_preset(find_preset(arguments.preset), method);
-  for (const auto& setting : arguments.settings) {
-    const auto equals = setting.find('=');
-    if (equals == std::string::npos)
-      throw InputError("--set needs key=value, not '" + setting + "'");
-    method.set(setting.substr(0, equals), setting.substr(equals + 1));
-  }
-  check_parameters(method);
-  return method;
-}
 
 /// The mesh with the targets that --target asks for.
 template <int dim, int spacedim>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "meshes/io/mesh_file.h"
 
@@ -22,6 +23,10 @@ namespace smoothfem {
 /// files, cells with mid-edge nodes and other cells.
 MeshParts read_legacy_vtk(const std::filesystem::path& path, const MeshReadOptions& options = {});
 MeshParts read_vtu(const std::filesystem::path& path, const MeshReadOptions& options = {});
+
+/// Returns the files that a .pvtu file lists, each once. Throws InputError "path:line: ..." if
+/// there are none, or if they are not in its folder or below.
+std::vector<std::filesystem::path> files_of_pvtu(const std::filesystem::path& path);
 
 /// Reads the .vtu files that a .pvtu file lists as one mesh. They must be in its folder or below.
 /// Ghost cells, which another piece has as well, are left out. Nodes on the seams of pieces stay

@@ -261,7 +261,8 @@ MeshParts vtu_parts(const std::filesystem::path& path, VtkGrid grid,
   return parts;
 }
 
-/// Returns the files that a .pvtu file lists, each once.
+}  // namespace
+
 std::vector<std::filesystem::path> files_of_pvtu(const std::filesystem::path& path) {
   const std::string content = read_whole_file(path);
   XmlTags tags(path.string(), content);
@@ -281,8 +282,6 @@ std::vector<std::filesystem::path> files_of_pvtu(const std::filesystem::path& pa
     throw InputError(path.string() + ": the file lists no pieces; give one of the .vtu files");
   return files;
 }
-
-}  // namespace
 
 MeshParts read_vtu(const std::filesystem::path& path, const MeshReadOptions& options) {
   return vtu_parts(path, grid_of_files({path}), options);
