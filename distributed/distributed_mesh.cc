@@ -12,10 +12,11 @@ namespace {
 class RankPart final : public MeshPart {
  public:
   /// positions: the nodes of the part in the order of the halo's entries.
-  RankPart(const Ranks& ranks, std::vector<std::uint8_t> owns_node,
-           std::vector<std::uint8_t> owns_cell, std::size_t n_cells_of_whole, Halo halo,
-           std::vector<NodeIndex> positions)
-      : MeshPart(std::move(owns_node), std::move(owns_cell), n_cells_of_whole),
+  RankPart(const Ranks& ranks, std::vector<GlobalIndex> nodes, std::vector<std::uint8_t> owns_node,
+           std::vector<GlobalIndex> cells, std::vector<std::uint8_t> owns_cell,
+           std::size_t n_cells_of_whole, Halo halo, std::vector<NodeIndex> positions)
+      : MeshPart(std::move(nodes), std::move(owns_node), std::move(cells), std::move(owns_cell),
+                 n_cells_of_whole),
         ranks_(ranks),
         halo_(std::move(halo)),
         positions_(std::move(positions)) {
@@ -35,10 +36,15 @@ class RankPart final : public MeshPart {
   void sum(std::span<std::int64_t> values) const override { ranks_.sum(values); }
   void min(std::span<double> values) const override { ranks_.min(values); }
   void max(std::span<double> values) const override { ranks_.max(values); }
+  void keep_lowest(std::span<KeyedCell> cells) const override { ranks_.keep_lowest(cells); }
   using MeshPart::max;
   using MeshPart::sum;
 
  private:
+  std::vector<std::byte> gather_bytes(std::span<const std::byte> bytes) const override {
+    return ranks_.gather_all(bytes);
+  }
+
   Ranks ranks_;
   Halo halo_;
   std::vector<NodeIndex> positions_;
@@ -108,9 +114,9 @@ std::pair<OwnedNodes, std::vector<std::uint8_t>> add_copies(const Ranks& ranks, 
 }
 
 /// Returns the part's exchange: own nodes are numbered rank by rank.
-std::shared_ptr<const MeshPart> make_rank_part(const Ranks& ranks,
-                                               const std::vector<GlobalIndex>& numbers,
+std::shared_ptr<const MeshPart> make_rank_part(const Ranks& ranks, std::vector<GlobalIndex> numbers,
                                                const std::vector<int>& owners,
+                                               std::vector<GlobalIndex> cells,
                                                std::vector<std::uint8_t> owns_cell,
                                                std::size_t n_cells_of_whole,
                                                std::size_t& n_nodes_of_whole) {
@@ -144,9 +150,10 @@ std::shared_ptr<const MeshPart> make_rank_part(const Ranks& ranks,
   positions.insert(positions.end(), copies.begin(), copies.end());
   std::vector<std::size_t> ghosts;
   for (const auto& of_rank : places) ghosts.insert(ghosts.end(), of_rank.begin(), of_rank.end());
-  return std::make_shared<RankPart>(
-      ranks, std::move(owns_node), std::move(owns_cell), n_cells_of_whole,
-      Halo(ranks, n_nodes_of_whole, first, own.size(), ghosts), std::move(positions));
+  return std::make_shared<RankPart>(ranks, std::move(numbers), std::move(owns_node),
+                                    std::move(cells), std::move(owns_cell), n_cells_of_whole,
+                                    Halo(ranks, n_nodes_of_whole, first, own.size(), ghosts),
+                                    std::move(positions));
 }
 
 /// Returns why each node of a part stays. Boundary and interfaces are known where all cells around
@@ -211,11 +218,12 @@ CompressedRows<NodeIndex> local_rows(CellTable& cells, const NumberSet& numbers)
 template <int dim>
 DistributedMesh<dim> distribute(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   auto [nodes, owns_cell] = add_copies(ranks, mesh.cells, choose_owners(mesh));
-  auto numbers = nodes.numbers.numbers();
   std::size_t n_nodes = 0;
   MeshLabels labels;
   labels.part =
-      make_rank_part(ranks, numbers, nodes.owners, std::move(owns_cell), mesh.n_cells, n_nodes);
+      make_rank_part(ranks, nodes.numbers.numbers(), nodes.owners, std::move(mesh.cells.numbers),
+                     std::move(owns_cell), mesh.n_cells, n_nodes);
+  const auto numbers = labels.part->nodes();
   std::vector<std::uint8_t> is_neighbour(static_cast<std::size_t>(ranks.size()), 0);
   for (const int owner : nodes.owners)
     is_neighbour[static_cast<std::size_t>(owner)] = owner != ranks.rank();
@@ -234,8 +242,8 @@ DistributedMesh<dim> distribute(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   points.reserve(numbers.size());
   for (const auto& x : mesh.nodes.ask(numbers, [](const NodeEntry<dim>& entry) { return entry.x; }))
     points.push_back(Point<dim>(x.data()));
-  return {Mesh<dim>(std::move(topology), std::move(points)), std::move(numbers), n_nodes,
-          n_neighbours, std::move(mesh.nodes)};
+  return {Mesh<dim>(std::move(topology), std::move(points)), n_nodes, n_neighbours,
+          std::move(mesh.nodes)};
 }
 
 template <int dim>
@@ -245,7 +253,7 @@ void store_coordinates(DistributedMesh<dim>& mesh) {
   std::vector<NodeEntry<dim>> entries;
   for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
     if (topology.part()->owns_node(i)) {
-      numbers.push_back(mesh.nodes[i]);
+      numbers.push_back(topology.part()->nodes()[i]);
       entries.push_back(
           node_entry<dim>(std::as_const(mesh.part).coordinates()[i], topology.fixed_reasons(i)));
     }

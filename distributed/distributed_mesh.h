@@ -11,9 +11,8 @@ namespace smoothfem {
 template <int dim>
 struct DistributedMesh {
   Mesh<dim> part;
-  std::vector<GlobalIndex> nodes;  ///< number of each node of the part in the whole mesh, ascending
-  std::size_t n_nodes = 0;         ///< of the whole mesh
-  std::size_t n_neighbours = 0;    ///< ranks that own nodes which the part has copied
+  std::size_t n_nodes = 0;       ///< of the whole mesh
+  std::size_t n_neighbours = 0;  ///< ranks that own nodes which the part has copied
   /// The nodes of the whole mesh; their coordinates are those before smoothing until
   /// store_coordinates().
   NodeDirectory<NodeEntry<dim>> directory;

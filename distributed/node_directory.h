@@ -10,11 +10,9 @@
 #include "fem/ranks/ranks.h"
 #include "smoothing/mesh/fixed_reason.h"
 #include "smoothing/mesh/point.h"
+#include "smoothing/parts/global_index.h"
 
 namespace smoothfem {
-
-/// Number of a node or cell in the whole mesh.
-using GlobalIndex = std::uint32_t;
 
 /// What any rank can ask about the nodes of a distributed mesh. Rank r keeps the entries of the
 /// numbers from n r / P to n (r+1) / P - 1, with n numbers and P ranks.

@@ -37,6 +37,20 @@ std::vector<int> offsets_of(const std::vector<int>& counts) {
   return offsets;
 }
 
+/// Merges two ascending lists of cells and keeps as many as one has; an operation of MPI.
+void merge_lowest(void* in, void* in_and_out, int* n_lists, MPI_Datatype* type) {
+  int n_bytes = 0;
+  MPI_Type_size(*type, &n_bytes);
+  const std::size_t n = static_cast<std::size_t>(n_bytes) / sizeof(KeyedCell);
+  const auto* from = static_cast<const KeyedCell*>(in);
+  auto* to = static_cast<KeyedCell*>(in_and_out);
+  std::vector<KeyedCell> merged(2 * n);
+  for (int i = 0; i < *n_lists; ++i, from += n, to += n) {
+    std::merge(from, from + n, to, to + n, merged.begin());
+    std::copy_n(merged.begin(), n, to);
+  }
+}
+
 }  // namespace
 
 Ranks::Ranks(MPI_Comm communicator) : communicator_(communicator) {
@@ -118,6 +132,27 @@ std::size_t Ranks::sum(std::size_t value) const {
 double Ranks::max(double value) const {
   max({&value, 1});
   return value;
+}
+
+std::vector<std::byte> Ranks::gather_all(std::span<const std::byte> bytes) const {
+  if (size_ == 1) return {bytes.begin(), bytes.end()};
+  std::vector<int> counts(static_cast<std::size_t>(size_));
+  const int count = static_cast<int>(bytes.size());
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator_);
+  const auto offsets = offsets_of(counts);
+  std::vector<std::byte> all(static_cast<std::size_t>(offsets.back() + counts.back()));
+  MPI_Allgatherv(bytes.data(), count, MPI_BYTE, all.data(), counts.data(), offsets.data(), MPI_BYTE,
+                 communicator_);
+  return all;
+}
+
+void Ranks::keep_lowest(std::span<KeyedCell> cells) const {
+  if (size_ == 1 || cells.empty()) return;
+  const ItemType type(cells.size_bytes());
+  MPI_Op lowest;
+  MPI_Op_create(merge_lowest, 1, &lowest);
+  MPI_Allreduce(MPI_IN_PLACE, cells.data(), 1, type.get(), lowest, communicator_);
+  MPI_Op_free(&lowest);
 }
 
 std::size_t Ranks::exclusive_scan(std::size_t value) const {

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,6 +12,8 @@
 #include <span>
 #include <type_traits>
 #include <vector>
+
+#include "smoothing/parts/global_index.h"
 
 namespace smoothfem {
 
@@ -70,6 +73,11 @@ class Ranks {
     gather_items(values.data(), counts, sizeof(T), all.data(), values.size());
     return all;
   }
+  /// Returns the bytes of all ranks, one rank's after the other's, on each. Collective.
+  std::vector<std::byte> gather_all(std::span<const std::byte> bytes) const;
+  /// Replaces ascending cells by the lowest ones of all ranks, the same on each. Each rank passes
+  /// the same number of cells. Collective.
+  void keep_lowest(std::span<KeyedCell> cells) const;
   /// Sends to[r] to each rank r; returns the items that each rank has sent to this one, in the
   /// order of the ranks. Frees `to`. Collective.
   template <class T>

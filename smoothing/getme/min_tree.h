@@ -45,6 +45,39 @@ class MinTree {
   }
   double key(std::uint32_t number) const { return keys_[number]; }
 
+  /// Returns the n numbers with the lowest keys in their order, or all with finite keys if these
+  /// are fewer. Requires size() > 0.
+  std::vector<std::uint32_t> lowest(std::size_t n) const {
+    // The winner of a group is known. Once it is taken, the other players of its rounds can be
+    // next.
+    struct Contender {
+      std::uint32_t number;
+      std::size_t level;  ///< it won all rounds below
+    };
+    const auto after = [this](const Contender& a, const Contender& b) {
+      return before(b.number, a.number);
+    };
+    std::vector<Contender> contenders{{top(), levels_.size()}};
+    std::vector<std::uint32_t> taken;
+    while (taken.size() < n && !contenders.empty()) {
+      std::pop_heap(contenders.begin(), contenders.end(), after);
+      const Contender first = contenders.back();
+      contenders.pop_back();
+      if (keys_[first.number] == never) break;
+      taken.push_back(first.number);
+      std::size_t group = first.number;
+      for (std::size_t level = 0; level < first.level; ++level) {
+        group /= width;
+        for (std::size_t i = group * width; i < end_of(level, group); ++i) {
+          if (player(level, i) == first.number) continue;
+          contenders.push_back({player(level, i), level});
+          std::push_heap(contenders.begin(), contenders.end(), after);
+        }
+      }
+    }
+    return taken;
+  }
+
   void update(std::uint32_t number, double key) {
     const double old = keys_[number];
     keys_[number] = key;
@@ -72,15 +105,19 @@ class MinTree {
   /// Returns the winner of a group. Players come in the order of their numbers, so that ties
   /// resolve themselves.
   std::uint32_t play(std::size_t level, std::size_t group) const {
-    const std::size_t n = level == 0 ? keys_.size() : levels_[level - 1].size();
-    const std::size_t last = std::min(n, (group + 1) * width);
-    const auto player = [&](std::size_t i) {
-      return level == 0 ? static_cast<std::uint32_t>(i) : levels_[level - 1][i];
-    };
-    std::uint32_t best = player(group * width);
+    const std::size_t last = end_of(level, group);
+    std::uint32_t best = player(level, group * width);
     for (std::size_t i = group * width + 1; i < last; ++i)
-      if (keys_[player(i)] < keys_[best]) best = player(i);
+      if (keys_[player(level, i)] < keys_[best]) best = player(level, i);
     return best;
+  }
+  /// Players of a group are those from group * width to its end.
+  std::size_t end_of(std::size_t level, std::size_t group) const {
+    const std::size_t n = level == 0 ? keys_.size() : levels_[level - 1].size();
+    return std::min(n, (group + 1) * width);
+  }
+  std::uint32_t player(std::size_t level, std::size_t i) const {
+    return level == 0 ? static_cast<std::uint32_t>(i) : levels_[level - 1][i];
   }
 
   std::vector<double> keys_;

@@ -15,7 +15,7 @@
 #include "smoothing/mesh/node_constraints.h"
 #include "smoothing/mesh/reordering.h"
 #include "smoothing/mesh/volume_elements.h"
-#include "smoothing/parts/order_free_sum.h"
+#include "smoothing/parts/exact_sum.h"
 #include "smoothing/parts/shared_coordinates.h"
 #include "smoothing/second_order/smooth_second_order.h"
 
@@ -42,11 +42,7 @@ template <int dim, int spacedim>
 double mean_edge_length(const Mesh<dim, spacedim>& mesh) {
   std::size_t n_edges = 0;
   if (const MeshPart* part = mesh.topology().part()) {
-    double longest = 0.0;
-    for_each_edge_length(mesh, [&](double length) { longest = std::max(longest, length); });
-    longest = part->max(longest);
-    if (!(longest > 0.0)) return 0.0;
-    OrderFreeSum sum(std::ilogb(longest) + 1);
+    ExactSum sum;
     for_each_edge_length(mesh, [&](double length) {
       sum.add(length);
       ++n_edges;

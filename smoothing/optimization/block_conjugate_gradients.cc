@@ -26,24 +26,19 @@ inline Point<3> total(Lanes sum, const float*) {
   return {sum[0], sum[1], sum[2]};
 }
 
-/// Computes rows first .. last-1 of y = A x; returns their part of x' y.
+/// Returns a row of A x.
 template <int dim, class Number>
-inline double multiply_range(const CompressedRows<std::uint32_t>& columns, const Number* blocks,
-                             const BlockVector<dim>& x, BlockVector<dim>& y, std::size_t first,
-                             std::size_t last) {
-  const Number* block = blocks + dim * dim * columns.offset(first);
-  double product = 0.0;
-  for (std::size_t row = first; row < last; ++row) {
-    Lanes sum{};
-    for (const std::uint32_t column : columns[row]) {
-      add_product(block, x[column], sum);
-      block += dim * dim;
-    }
-    y[row] = total(sum, blocks);
-    for (int d = 0; d < dim; ++d) product += x[row][d] * y[row][d];
+inline Point<dim> multiplied_row(const CompressedRows<std::uint32_t>& columns, const Number* blocks,
+                                 const BlockVector<dim>& x, std::size_t row) {
+  const Number* block = blocks + dim * dim * columns.offset(row);
+  Lanes sum{};
+  for (const std::uint32_t column : columns[row]) {
+    add_product(block, x[column], sum);
+    block += dim * dim;
   }
-  return product;
+  return total(sum, blocks);
 }
+
 }  // namespace
 
 template <int dim>
@@ -56,29 +51,27 @@ void BlockConjugateGradients<dim>::prepare(const BlockMatrix<dim>& matrix) {
 
 template <int dim>
 double BlockConjugateGradients<dim>::norm(const BlockVector<dim>& residual) const {
-  return std::sqrt(sum_over_ranges(residual.size(), [&](std::size_t first, std::size_t last) {
-    double sum = 0.0;
-    for (std::size_t i = first; i < last; ++i)
-      sum += (matrix_->inverse_factor(i) * residual[i]).squaredNorm();
-    return sum;
+  return std::sqrt(matrix_->rows().sum([&](std::size_t i, double& sum) {
+    sum += (matrix_->inverse_factor(i) * residual[i]).squaredNorm();
   }));
 }
 
 template <int dim>
 void BlockConjugateGradients<dim>::precondition(const BlockVector<dim>& residual,
                                                 BlockVector<dim>& result) const {
-  for_row_ranges(residual.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      result[i] =
-          matrix_->inverse_factor(i).transpose() * (matrix_->inverse_factor(i) * residual[i]);
+  matrix_->rows().for_each([&](std::size_t i) {
+    result[i] = matrix_->inverse_factor(i).transpose() * (matrix_->inverse_factor(i) * residual[i]);
   });
+  matrix_->rows().update(result);
 }
 
 template <int dim>
 double BlockConjugateGradients<dim>::multiply_scaled(const BlockVector<dim>& x,
                                                      BlockVector<dim>& y) const {
-  return sum_over_ranges(x.size(), [&](std::size_t first, std::size_t last) {
-    return multiply_range<dim>(matrix_->columns(), matrix_->scaled_block(0), x, y, first, last);
+  const auto* const blocks = matrix_->scaled_block(0);
+  return matrix_->rows().sum([&](std::size_t row, double& sum) {
+    y[row] = multiplied_row<dim>(matrix_->columns(), blocks, x, row);
+    for (int d = 0; d < dim; ++d) sum += x[row][d] * y[row][d];
   });
 }
 
@@ -86,25 +79,16 @@ template <int dim>
 typename BlockConjugateGradients<dim>::Result BlockConjugateGradients<dim>::solve(
     const BlockVector<dim>& right, double relative_tolerance, int max_iterations,
     BlockVector<dim>& result) {
-  const std::size_t n = right.size();
-  const auto scale_back = [&](BlockVector<dim>& scaled) {
-    for_row_ranges(n, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i)
-        scaled[i] = (matrix_->inverse_factor(i).transpose() * scaled[i]).eval();
-    });
-  };
-  double rho = sum_over_ranges(n, [&](std::size_t first, std::size_t last) {
-    double sum = 0.0;
-    for (std::size_t i = first; i < last; ++i) {
-      result[i].setZero();
-      residual_[i] = direction_[i] = matrix_->inverse_factor(i) * right[i];
-      sum += residual_[i].squaredNorm();
-    }
-    return sum;
+  const UnknownRows& rows = matrix_->rows();
+  double rho = rows.sum([&](std::size_t i, double& sum) {
+    result[i].setZero();
+    residual_[i] = direction_[i] = matrix_->inverse_factor(i) * right[i];
+    sum += residual_[i].squaredNorm();
   });
   const double goal = relative_tolerance * relative_tolerance * rho;
   Result report;
   for (; report.n_iterations < max_iterations && rho > goal; ++report.n_iterations) {
+    rows.update(direction_);
     const double curvature = multiply_scaled(direction_, product_);
     if (!(curvature > 0.0)) {
       if (report.n_iterations == 0) result = direction_;
@@ -112,23 +96,19 @@ typename BlockConjugateGradients<dim>::Result BlockConjugateGradients<dim>::solv
       break;
     }
     const double alpha = rho / curvature;
-    const double rho_new = sum_over_ranges(n, [&](std::size_t first, std::size_t last) {
-      double sum = 0.0;
-      for (std::size_t i = first; i < last; ++i) {
-        result[i] += alpha * direction_[i];
-        residual_[i] -= alpha * product_[i];
-        sum += residual_[i].squaredNorm();
-      }
-      return sum;
+    const double rho_new = rows.sum([&](std::size_t i, double& sum) {
+      result[i] += alpha * direction_[i];
+      residual_[i] -= alpha * product_[i];
+      sum += residual_[i].squaredNorm();
     });
     const double beta = rho_new / rho;
     rho = rho_new;
-    for_row_ranges(n, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i)
-        direction_[i] = residual_[i] + beta * direction_[i];
-    });
+    rows.for_each([&](std::size_t i) { direction_[i] = residual_[i] + beta * direction_[i]; });
   }
-  scale_back(result);
+  rows.for_each([&](std::size_t i) {
+    result[i] = (matrix_->inverse_factor(i).transpose() * result[i]).eval();
+  });
+  rows.update(result);
   return report;
 }
 

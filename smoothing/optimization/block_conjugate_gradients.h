@@ -6,7 +6,8 @@
 namespace smoothfem {
 
 /// Conjugate gradients for A x = b, preconditioned by the inverses of A's diagonal blocks L L',
-/// which must be positive definite. A itself may be indefinite, which is detected.
+/// which must be positive definite. A itself may be indefinite, which is detected. In a part of a
+/// mesh all functions are collective, and results have the values of owners in copied rows.
 template <int dim>
 class BlockConjugateGradients {
  public:

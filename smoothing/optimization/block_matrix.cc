@@ -39,15 +39,16 @@ Eigen::Matrix<double, dim, dim> inverse_cholesky_factor(Eigen::Matrix<double, di
 }  // namespace
 
 template <int dim>
-BlockMatrix<dim>::BlockMatrix(CompressedRows<std::uint32_t> columns)
+BlockMatrix<dim>::BlockMatrix(CompressedRows<std::uint32_t> columns, UnknownRows rows)
     : columns_(std::move(columns)),
+      rows_(std::move(rows)),
       inverse_factors_(n_rows() + 1, Block::Zero()),
       scaled_(dim * dim * columns_.n_entries() + n_lanes) {}  // read n_lanes numbers at a time
 
 template <int dim>
 std::vector<typename BlockMatrix<dim>::Block> BlockMatrix<dim>::start_diagonal() {
   auto diagonal = std::move(inverse_factors_);
-  for_row_ranges(diagonal.size(), [&](std::size_t first, std::size_t last) {
+  parallel_for_ranges(diagonal.size(), 16384, [&](std::size_t first, std::size_t last) {
     std::fill(diagonal.begin() + first, diagonal.begin() + last, Block::Zero());
   });
   return diagonal;
@@ -55,17 +56,16 @@ std::vector<typename BlockMatrix<dim>::Block> BlockMatrix<dim>::start_diagonal()
 
 template <int dim>
 void BlockMatrix<dim>::factor_diagonal(std::vector<Block> diagonal) {
-  for_row_ranges(n_rows(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t row = first; row < last; ++row) {
-      std::fill(scaled_block(columns_.offset(row)), scaled_block(columns_.offset(row + 1)),
-                Number{0});
-      const Block factor = inverse_cholesky_factor<dim>(diagonal[row]);
-      const Block scaled = factor * diagonal[row] * factor.transpose();
-      const auto number = static_cast<std::uint32_t>(row);
-      std::copy(scaled.data(), scaled.data() + dim * dim, scaled_block(position(number, number)));
-      diagonal[row] = factor;
-    }
+  rows_.for_each([&](std::size_t row) {
+    std::fill(scaled_block(columns_.offset(row)), scaled_block(columns_.offset(row + 1)),
+              Number{0});
+    const Block factor = inverse_cholesky_factor<dim>(diagonal[row]);
+    const Block scaled = factor * diagonal[row] * factor.transpose();
+    const auto number = static_cast<std::uint32_t>(row);
+    std::copy(scaled.data(), scaled.data() + dim * dim, scaled_block(position(number, number)));
+    diagonal[row] = factor;
   });
+  rows_.update(diagonal);
   inverse_factors_ = std::move(diagonal);
 }
 

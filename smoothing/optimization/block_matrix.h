@@ -7,49 +7,15 @@
 #include <type_traits>
 #include <vector>
 
-#include "smoothing/base/parallel.h"
 #include "smoothing/mesh/compressed_rows.h"
 #include "smoothing/mesh/mesh.h"
+#include "smoothing/optimization/unknown_rows.h"
 
 namespace smoothfem {
 
 /// A vector with an entry for each row of a block matrix.
 template <int dim>
 using BlockVector = std::vector<Point<dim>>;
-
-/// Number of rows that one thread takes at a time; it fixes the order of sums over rows.
-inline constexpr std::size_t row_grain = 1024;
-
-/// Calls work(first, last) for ranges of rows. Several threads run only if there are enough rows:
-/// otherwise waiting for each other at the end of every loop costs more than it gains.
-template <class Work>
-void for_row_ranges(std::size_t n_rows, const Work& work) {
-  constexpr std::size_t min_rows = 16384;
-  if (n_rows >= min_rows) return parallel_for_ranges(n_rows, row_grain, work);
-  for (std::size_t first = 0; first < n_rows; first += row_grain)
-    work(first, std::min(first + row_grain, n_rows));
-}
-
-/// Returns the sum of part(first, last) over ranges of rows, the same for every number of threads.
-template <class Part>
-double sum_over_ranges(std::size_t n_rows, const Part& part) {
-  std::vector<double> parts((n_rows + row_grain - 1) / row_grain);
-  for_row_ranges(n_rows, [&](std::size_t first, std::size_t last) {
-    parts[first / row_grain] = part(first, last);
-  });
-  double sum = 0.0;
-  for (const double value : parts) sum += value;
-  return sum;
-}
-
-template <int dim>
-double dot(const BlockVector<dim>& a, const BlockVector<dim>& b) {
-  return sum_over_ranges(a.size(), [&](std::size_t first, std::size_t last) {
-    double sum = 0.0;
-    for (std::size_t i = first; i < last; ++i) sum += a[i].dot(b[i]);
-    return sum;
-  });
-}
 
 /// A symmetric sparse matrix A of dim x dim blocks, one for each pair of nodes, on a fixed pattern.
 /// It is stored scaled by its diagonal blocks L L', as L^-1 A L'^-1. The scaled matrix needs no
@@ -64,9 +30,10 @@ class BlockMatrix {
 
   BlockMatrix() = default;
   /// columns: those of each row, sorted ascending, with the diagonal; a symmetric pattern.
-  explicit BlockMatrix(CompressedRows<std::uint32_t> columns);
+  BlockMatrix(CompressedRows<std::uint32_t> columns, UnknownRows rows);
 
   std::size_t n_rows() const { return columns_.size(); }
+  const UnknownRows& rows() const { return rows_; }
   BlockVector<dim> make_vector() const { return BlockVector<dim>(n_rows(), Point<dim>::Zero()); }
   const CompressedRows<std::uint32_t>& columns() const { return columns_; }
 
@@ -75,7 +42,7 @@ class BlockMatrix {
   std::vector<Block> start_diagonal();
 
   /// Second step: computes the factors from these blocks, which must be positive semidefinite, and
-  /// sets the other blocks to zero.
+  /// sets the other blocks to zero. Collective in a part of a mesh.
   void factor_diagonal(std::vector<Block> diagonal);
   /// Returns L^-1 of a row; zero for row number n_rows().
   const Block& inverse_factor(std::size_t row) const { return inverse_factors_[row]; }
@@ -95,6 +62,7 @@ class BlockMatrix {
 
  private:
   CompressedRows<std::uint32_t> columns_;
+  UnknownRows rows_;
   std::vector<Block> inverse_factors_;  ///< L^-1 of each row
   std::vector<Number> scaled_;
 };

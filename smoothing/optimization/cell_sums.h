@@ -38,17 +38,48 @@ inline const NodeIndex* nodes_of(const SingleCell& cell, std::size_t) {
   return cell.nodes.data();
 }
 
+/// One of several cells at a time.
+template <class Cells>
+struct OneLane {
+  const Cells& cells;
+  std::size_t lane;
+
+  template <class Visit>
+  void for_each_lane(const Visit& visit) const {
+    visit(lane);
+  }
+};
+template <class Cells>
+const NodeIndex* nodes_of(const OneLane<Cells>& one, std::size_t l) {
+  return nodes_of(one.cells, l);
+}
+
+/// Calls add(cells), or for each of them separately: then the order of sums does not depend on how
+/// many there are at a time.
+template <class Cells, class Add>
+void add_in_order(bool one_by_one, const Cells& cells, const Add& add) {
+  if (!one_by_one) return add(cells);
+  cells.for_each_lane([&](std::size_t l) { add(OneLane<Cells>{cells, l}); });
+}
+
 /// Adds the gradients of cells and the diagonal blocks of their Hessians. The order of the cells,
 /// and so of these sums, is always the same.
 template <int dim>
 struct DiagonalSums {
   static constexpr HessianBlocks blocks = HessianBlocks::diagonal;
   const std::vector<std::uint32_t>& unknown;
+  bool one_by_one;
   BlockVector<dim>& gradient;
   std::vector<typename BlockMatrix<dim>::Block>& diagonal;
 
   template <class Cells, class Derivatives>
   void add(const Cells& cells, const Derivatives& cell) {
+    add_in_order(one_by_one, cells, [&](const auto& some) { add_some(some, cell); });
+  }
+
+ private:
+  template <class Cells, class Derivatives>
+  void add_some(const Cells& cells, const Derivatives& cell) {
     const std::size_t n = cell.gradient.size();
     for (std::size_t p = 0; p < n; ++p) {
       const auto blocks_of_cells = added_blocks<double>(cell.hessian[node_pair(n, p, p)]);
@@ -67,12 +98,21 @@ template <int dim>
 struct OtherBlockSums {
   static constexpr HessianBlocks blocks = HessianBlocks::all;
   const std::vector<std::uint32_t>& unknown;
+  bool one_by_one;
   const std::array<std::uint32_t, 2>* positions;  ///< in the matrix, of the next cell's pairs
   BlockMatrix<dim>& hessian;
 
   template <class Cells, class Derivatives>
   void add(const Cells& cells, const Derivatives& cell) {
-    const std::size_t n = cell.gradient.size(), n_pairs = n_node_pairs(n) - n;
+    const std::size_t n_pairs = n_node_pairs(cell.gradient.size()) - cell.gradient.size();
+    add_in_order(one_by_one, cells, [&](const auto& some) { add_some(some, cell, n_pairs); });
+    cells.for_each_lane([&](std::size_t) { positions += n_pairs; });
+  }
+
+ private:
+  template <class Cells, class Derivatives>
+  void add_some(const Cells& cells, const Derivatives& cell, std::size_t n_pairs) {
+    const std::size_t n = cell.gradient.size();
     typename Derivatives::NodeBlocks factors(n);
     for (std::size_t p = 0; p < n; ++p)
       cells.for_each_lane([&](std::size_t l) {
@@ -91,12 +131,13 @@ struct OtherBlockSums {
           blocks_of_cells[l].transpose().add_to(hessian.scaled_block(left));
         });
       }
-    cells.for_each_lane([&](std::size_t) { positions += n_pairs; });
   }
 };
 
 /// The unknowns of an objective that is a sum over cells, and the sums of its derivatives. The
-/// unknowns are the coordinates of some nodes.
+/// unknowns are the coordinates of some nodes. In a part of a mesh, the sums of the nodes that it
+/// owns are complete. There one thread adds the cells in their order, so that the sums do not
+/// depend on the parts.
 template <int dim>
 class CellSums {
  public:
@@ -106,6 +147,7 @@ class CellSums {
       : blocks_(&topology.blocks()),
         cells_(&cells),
         unknown_nodes_(std::move(unknown_nodes)),
+        rows_(topology, unknown_nodes_),
         unknown_(topology.n_nodes(), static_cast<std::uint32_t>(unknown_nodes_.size())) {
     std::uint32_t next = 0;
     for (const NodeIndex i : unknown_nodes_) unknown_[i] = next++;
@@ -122,7 +164,7 @@ class CellSums {
   /// node_cells(i): the cells of a node.
   template <class NodeCells>
   BlockMatrix<dim> make_hessian(const NodeCells& node_cells) {
-    BlockMatrix<dim> matrix(coupled_unknowns(node_cells));
+    BlockMatrix<dim> matrix(coupled_unknowns(node_cells), rows_);
     const auto fixed = static_cast<std::uint32_t>(unknown_nodes_.size());
     positions_.resize(blocks_->size());
     parallel_for(positions_.size(), [&](std::size_t b) {
@@ -150,13 +192,15 @@ class CellSums {
   void derivatives(const AddBlock& add_block, BlockVector<dim>& gradient,
                    BlockMatrix<dim>& hessian) const {
     std::fill(gradient.begin(), gradient.end(), Point<dim>::Zero());
+    const bool one_by_one = rows_.part() != nullptr;
     auto diagonal = hessian.start_diagonal();
     for_disjoint_blocks([&](std::size_t b) {
-      add_block((*blocks_)[b], DiagonalSums<dim>{unknown_, gradient, diagonal});
+      add_block((*blocks_)[b], DiagonalSums<dim>{unknown_, one_by_one, gradient, diagonal});
     });
     hessian.factor_diagonal(std::move(diagonal));
     for_disjoint_blocks([&](std::size_t b) {
-      add_block((*blocks_)[b], OtherBlockSums<dim>{unknown_, positions_[b].data(), hessian});
+      add_block((*blocks_)[b],
+                OtherBlockSums<dim>{unknown_, one_by_one, positions_[b].data(), hessian});
     });
   }
 
@@ -177,6 +221,10 @@ class CellSums {
   /// Calls work(b) for all blocks of cells; several threads take blocks that share no nodes.
   template <class Work>
   void for_disjoint_blocks(const Work& work) const {
+    if (rows_.part() != nullptr) {
+      for (std::size_t b = 0; b < blocks_->size(); ++b) work(b);
+      return;
+    }
     for (const auto& group : groups_)
       parallel_for(group.size(), [&](std::size_t i) { work(group[i]); });
   }
@@ -184,6 +232,7 @@ class CellSums {
   const std::vector<CellBlock>* blocks_;
   const CompressedRows<NodeIndex>* cells_;
   std::vector<NodeIndex> unknown_nodes_;
+  UnknownRows rows_;
   DisjointGroups groups_;               ///< groups of blocks that share no nodes
   std::vector<std::uint32_t> unknown_;  ///< number of each unknown node; otherwise their count
   /// Positions of the blocks of each cell's pairs of nodes p < q, and of their transposes.

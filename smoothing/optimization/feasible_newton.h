@@ -82,7 +82,7 @@ class FeasibleNewton {
   double value() const { return value_; }
 
   /// One iteration; returns true if the method has converged. limit(*this, mesh): shortens the
-  /// step by calls of shorten().
+  /// step by calls of shorten(). Collective in a part of a mesh, as all that it calls.
   template <class Limit>
   bool step(Mesh<dim>& mesh, const Limit& limit) {
     const double value_before = value_;
@@ -109,6 +109,7 @@ class FeasibleNewton {
       set_trial(mesh, 1.0);
       if (!find_limits(round, std::as_const(trial_), limits_)) return;
       for (std::size_t i = 0; i < nodes.size(); ++i) step_[i] *= limits_[nodes[i]];
+      hessian_.rows().update(step_);  // limits of copied nodes are incomplete
     }
   }
 
@@ -156,7 +157,8 @@ class FeasibleNewton {
   template <class Limit>
   double limited_slope(const Mesh<dim>& mesh, const Limit& limit) {
     limit(*this, mesh);
-    return dot<dim>(gradient_, step_);
+    return hessian_.rows().sum(
+        [&](std::size_t i, double& sum) { sum += gradient_[i].dot(step_[i]); });
   }
 
   /// Halves the step until the objective falls enough (Armijo). Returns false if it never does.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "smoothing/optimization/target_derivatives.h"
+#include "smoothing/parts/exact_sum.h"
 
 namespace smoothfem {
 
@@ -65,6 +66,34 @@ double sum_of_block(const Topology& topology, const Sizes<dim>& sizes, const Poi
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
+/// Returns the sum over the cells that a part of a mesh owns.
+template <int dim>
+ExactSum sum_of_part(const Topology& topology, const Point<dim>* x) {
+  const Sizes<dim> sizes{nullptr, 0.0};
+  std::vector<ExactSum> sums(topology.blocks().size());
+  parallel_for(sums.size(), [&](std::size_t b) {
+    const auto add = [&](CellIndex c, double value) {
+      if (topology.part()->owns_cell(c)) sums[b].add(value);
+    };
+    for_each_batch<dim>(
+        topology, topology.blocks()[b].first, topology.blocks()[b].last,
+        [&]<std::size_t n>(const CellBatch<n>& batch) {
+          const auto corners = target_corners<dim>(nullptr, batch, coordinates_at(x));
+          const Lanes value = cell_objective<dim, Lanes, n>(sizes, corners);
+          batch.for_each_lane([&](std::size_t l) { add(batch.cells[l], value[l]); });
+        },
+        [&](CellIndex c) {
+          if constexpr (dim == 2)
+            with_target_polygon(topology, sizes, x, c, [&](auto corners) {
+              add(c, cell_objective<2, double, std::dynamic_extent>(sizes, corners));
+            });
+        });
+  });
+  ExactSum sum;
+  for (const ExactSum& part : sums) sum.add(part);
+  return sum;
+}
+
 template <int dim, class Sums>
 void add_block_derivatives(const Topology& topology, const Sizes<dim>& sizes, const Point<dim>* x,
                            const CellBlock& block, HessianModel model, Sums sums) {
@@ -93,6 +122,16 @@ void add_block_derivatives(const Topology& topology, const Sizes<dim>& sizes, co
       });
 }
 
+/// Returns the nodes that are not fixed. In a part of a mesh, these include copies, which
+/// topology.free_nodes() has not.
+std::vector<NodeIndex> moving_nodes(const Topology& topology) {
+  if (topology.part() == nullptr) return topology.free_nodes();
+  std::vector<NodeIndex> nodes;
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
+    if (!topology.is_fixed(i)) nodes.push_back(i);
+  return nodes;
+}
+
 }  // namespace
 
 template <int dim>
@@ -102,7 +141,7 @@ ShapeObjective<dim>::ShapeObjective(std::shared_ptr<const Topology> topology,
     : topology_(std::move(topology)),
       targets_(std::move(targets)),
       size_weight_(size_weight),
-      sums_(*topology_, topology_->free_nodes(), topology_->cells()) {}
+      sums_(*topology_, moving_nodes(*topology_), topology_->cells()) {}
 
 template <int dim>
 BlockMatrix<dim> ShapeObjective<dim>::make_hessian() {
@@ -111,6 +150,8 @@ BlockMatrix<dim> ShapeObjective<dim>::make_hessian() {
 
 template <int dim>
 double ShapeObjective<dim>::value(std::span<const Point<dim>> coordinates) const {
+  if (topology_->part())
+    return sum_of_part<dim>(*topology_, coordinates.data()).total(*topology_->part());
   const Sizes<dim> sizes{targets_.get(), size_weight_};
   std::vector<double> parts(topology_->blocks().size());
   parallel_for(parts.size(), [&](std::size_t b) {

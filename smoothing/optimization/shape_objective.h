@@ -21,7 +21,7 @@ namespace smoothfem {
 template <int dim>
 class ShapeObjective {
  public:
-  /// The unknowns are the coordinates of the free nodes, in the order of topology.free_nodes().
+  /// The unknowns are the coordinates of the nodes that are not fixed, in their order.
   /// targets: null if there are none. size_weight: factor of the term for the size.
   explicit ShapeObjective(std::shared_ptr<const Topology> topology,
                           std::shared_ptr<const CellTargets<dim>> targets = nullptr,
@@ -29,7 +29,8 @@ class ShapeObjective {
 
   const std::vector<NodeIndex>& unknown_nodes() const { return sums_.unknown_nodes(); }
 
-  /// Returns the objective; infinity if a cell is invalid. coordinates: of all nodes.
+  /// Returns the objective of the whole mesh; infinity if a cell is invalid. coordinates: of all
+  /// nodes.
   double value(std::span<const Point<dim>> coordinates) const;
 
   /// Makes a matrix with the Hessian's pattern, to be filled by derivatives() of this objective

@@ -3,10 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "smoothing/mesh/element_type.h"
+#include "smoothing/parts/global_index.h"
 
 namespace smoothfem {
 
@@ -27,6 +31,9 @@ class MeshPart {
   bool owns_cell(CellIndex cell) const { return owns_cell_[cell] != 0; }
   /// Returns the number of cells of the whole mesh.
   std::size_t n_cells_of_whole() const { return n_cells_of_whole_; }
+  /// Numbers of the part's nodes and cells in the whole mesh, ascending.
+  std::span<const GlobalIndex> nodes() const { return nodes_; }
+  std::span<const GlobalIndex> cells() const { return cells_; }
 
   /// Overwrites the values of copied nodes by those of their owners. values: n for each node of the
   /// part, one node after the other.
@@ -35,6 +42,17 @@ class MeshPart {
   virtual void sum(std::span<std::int64_t> values) const = 0;
   virtual void min(std::span<double> values) const = 0;
   virtual void max(std::span<double> values) const = 0;
+  /// Returns the items of all ranks, one rank's after the other's.
+  template <class T>
+  std::vector<T> gather(const std::vector<T>& items) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto bytes = gather_bytes(std::as_bytes(std::span(items)));
+    std::vector<T> all(bytes.size() / sizeof(T));
+    if (!all.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
+    return all;
+  }
+  /// Replaces ascending cells by the lowest ones of all ranks. Each rank passes the same number.
+  virtual void keep_lowest(std::span<KeyedCell> cells) const = 0;
 
   double max(double value) const {
     max({&value, 1});
@@ -49,14 +67,20 @@ class MeshPart {
   bool any(bool value) const { return sum(std::size_t{value}) > 0; }
 
  protected:
-  /// Flags for the nodes and cells of this part.
-  MeshPart(std::vector<std::uint8_t> owns_node, std::vector<std::uint8_t> owns_cell,
+  /// Numbers in the whole mesh, and flags, of the nodes and cells of this part.
+  MeshPart(std::vector<GlobalIndex> nodes, std::vector<std::uint8_t> owns_node,
+           std::vector<GlobalIndex> cells, std::vector<std::uint8_t> owns_cell,
            std::size_t n_cells_of_whole)
-      : owns_node_(std::move(owns_node)),
+      : nodes_(std::move(nodes)),
+        cells_(std::move(cells)),
+        owns_node_(std::move(owns_node)),
         owns_cell_(std::move(owns_cell)),
         n_cells_of_whole_(n_cells_of_whole) {}
 
  private:
+  virtual std::vector<std::byte> gather_bytes(std::span<const std::byte> bytes) const = 0;
+
+  std::vector<GlobalIndex> nodes_, cells_;
   std::vector<std::uint8_t> owns_node_, owns_cell_;
   std::size_t n_cells_of_whole_;
 };

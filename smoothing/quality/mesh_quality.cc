@@ -8,7 +8,7 @@
 #include "smoothing/base/option_text.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/geometry/cell_size.h"
-#include "smoothing/parts/order_free_sum.h"
+#include "smoothing/parts/exact_sum.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/target_corners.h"
 #include "smoothing/second_order/curved_quality.h"
@@ -76,7 +76,7 @@ MeshQuality quality_of_parts(const Topology& topology, const std::vector<double>
   const MeshPart& part = *topology.part();
   struct OfBlock {
     std::array<double, 2> least{none, none};  // of all cells, and of those with a free node
-    OrderFreeSum sum;
+    ExactSum sum;
     std::size_t n_invalid = 0;
   };
   std::vector<OfBlock> blocks(topology.blocks().size());

@@ -3,10 +3,13 @@
 #include <numeric>
 #include <optional>
 
+#include "smoothing/base/parallel.h"
+#include "smoothing/getme/independent_cells.h"
 #include "smoothing/getme/min_tree.h"
 #include "smoothing/getme/neighbour_sizes.h"
 #include "smoothing/getme/regularize.h"
 #include "smoothing/loop/catalogue.h"
+#include "smoothing/parts/exact_sum.h"
 #include "smoothing/quality/local_quality.h"
 #include "smoothing/quality/target_corners.h"
 #include "smoothing/quality/warpage.h"
@@ -63,6 +66,9 @@ struct ByMeanRatioAndWarpage {
 /// Transforms the element with the lowest corrected quality, alone, again and again (thesis,
 /// Section 4.3, Fig. 4.3). A step is a cycle of such transformations; the lowest quality is
 /// evaluated after it. Assessment: the quality of an element.
+///
+/// In a mesh in parts, or if asked, a cycle consists of rounds: the elements of the lowest
+/// corrected quality that have separate neighbourhoods are transformed at the same time.
 template <int dim, int spacedim, class Assessment>
 class GetmeSequential final : public Smoother<dim, spacedim> {
  public:
@@ -77,6 +83,11 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
          0.0, 1.0},
         {"penalty_success", "added when the transformation is kept; penalties never fall below 0",
          &penalty_success_, -1.0, 0.0},
+        {"at_once",
+         "most elements of a round; 1: one element after the other, as in the thesis; 0: a cycle "
+         "in "
+         "a mesh in parts, otherwise 1",
+         &at_once_, 0.0, 1e6},
         {"cycle", "transformations between evaluations of the lowest quality (Section 6.2)",
          &cycle_, 1.0, 1e9},
         {"patience", "stop after this many evaluations without improving the lowest quality",
@@ -104,7 +115,8 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     return {.quality_use = QualityUse::smoother,
             .result = Assessment::result,
             .keeps_constraints = true,
-            .takes_targets = Assessment::result == ResultMesh::best_q_star_min};
+            .takes_targets = Assessment::result == ResultMesh::best_q_star_min,
+            .works_in_parts = !element_.fits_neighbours()};
   }
   StoppingRule stopping() const override {
     return {.criterion = StoppingRule::Criterion::result_stall,
@@ -117,56 +129,172 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   void initialize(const SmoothingState<dim, spacedim>& state) override {
     regularization_.emplace(state.mesh.targets() ? with_given_sizes(element_) : element_);
     const auto& topology = state.mesh.topology();
+    const WholeMesh whole(topology);
     std::vector<double> keys(topology.n_cells(), MinTree::never);
     for (CellIndex c = 0; c < topology.n_cells(); ++c)
-      if (topology.has_free_node(c)) keys[c] = assess_(state.mesh, c, state.cell_quality[c]);
+      if (topology.has_free_node(c) && whole.owns_cell(c))
+        keys[c] = assess_(state.mesh, c, state.cell_quality[c]);
     by_quality_.build(std::move(keys));
     by_corrected_quality_ = by_quality_;
+    find_lowest(topology);
     penalties_.assign(topology.n_cells(), 0.0);
     touched_in_.assign(topology.n_cells(), 0);
-    quality_gain_ = 0.0;
+    quality_gain_ = ExactSum();
     initial_quality_sum_ =
-        std::accumulate(state.cell_quality.begin(), state.cell_quality.end(), 0.0);
+        topology.part()
+            ? state.initial_quality.q_mean *
+                  static_cast<double>(topology.part()->n_cells_of_whole())
+            : std::accumulate(state.cell_quality.begin(), state.cell_quality.end(), 0.0);
     n_transformations_ = 0;
-    last_picked_ = no_cell;
+    last_picked_.clear();
+    independent_.prepare(topology);
   }
 
   double initial_score() const override { return lowest_quality(); }
 
   StepReport step(SmoothingState<dim, spacedim>& state) override {
+    const Topology& topology = state.mesh.topology();
+    const auto at_once = static_cast<std::size_t>(at_once_ > 0      ? at_once_
+                                                  : topology.part() ? cycle_
+                                                                    : 1);
+    const auto cycle = static_cast<std::size_t>(cycle_);
+    const bool makes_rounds = topology.part() != nullptr || at_once > 1;
     StepReport report{.n_counted = 0};
     moved_in_cycle_.clear();
-    for (int i = 0; i < cycle_ && !by_corrected_quality_.empty() && !is_perfect(); ++i) {
-      const CellIndex worst = worst_cell(state);
-      transform(state, worst);
-      const bool kept = accept_or_undo(state, worst);
-      update_penalty(worst, kept);
-      if (kept)
-        for (const CellIndex c : touched_) {
-          by_quality_.update(c, assess_(state.mesh, c, state.cell_quality[c]));
-          by_corrected_quality_.update(c, by_quality_.key(c) + penalties_[c]);
-        }
-      else
-        ++report.n_reset;
-      by_corrected_quality_.update(worst, by_quality_.key(worst) + penalties_[worst]);
-      ++report.n_counted;
+    while (report.n_counted < cycle && !is_perfect()) {
+      const auto [n, n_undone] =
+          makes_rounds ? transform_round(state, std::min(cycle - report.n_counted, at_once))
+                       : transform_worst(state);
+      if (n == 0) break;
+      report.n_counted += n;
+      report.n_reset += n_undone;
+      if (!makes_rounds) find_lowest(topology);
     }
+    find_lowest(topology);
     report.score = lowest_quality();
-    if (Assessment::result == ResultMesh::best_q_star_min && !by_quality_.empty())
+    if (Assessment::result == ResultMesh::best_q_star_min && lowest_key_ != MinTree::never)
       report.q_star_min = report.score;
     report.moved = moved_in_cycle_;
-    report.converged = quality_gain_ < -max_mean_loss_ * initial_quality_sum_ || is_perfect();
+    report.converged =
+        quality_gain(topology) < -max_mean_loss_ * initial_quality_sum_ || is_perfect();
     return report;
   }
 
  private:
-  static constexpr CellIndex no_cell = static_cast<CellIndex>(-1);
+  struct Counts {
+    std::size_t n_transformed = 0, n_undone = 0;
+  };
+  /// A transformation that may be undone, as far as this process knows of it.
+  struct Trial {
+    std::vector<NodeIndex> moved{};
+    std::vector<Point<spacedim>> before{};  ///< positions of the moved nodes
+    std::vector<CellIndex> touched{};       ///< cells with a moved node
+    std::vector<double> quality{};          ///< of these, afterwards
 
-  double lowest_quality() const {
-    return by_quality_.empty() ? 0.0 : by_quality_.key(by_quality_.top());
+    void clear() {
+      moved.clear();
+      before.clear();
+    }
+    void move(Mesh<dim, spacedim>& mesh, NodeIndex node, const Point<spacedim>& position) {
+      moved.push_back(node);
+      before.push_back(std::exchange(mesh.coordinates()[node], position));
+    }
+  };
+  struct NewPosition {
+    CandidateNode node;
+    std::array<double, std::size_t{spacedim}> x;
+  };
+
+  double lowest_quality() const { return lowest_key_ == MinTree::never ? 0.0 : lowest_key_; }
+  void find_lowest(const Topology& topology) {
+    lowest_key_ = WholeMesh(topology).min(
+        by_quality_.size() == 0 ? MinTree::never : by_quality_.key(by_quality_.top()));
+  }
+  bool is_perfect() const { return lowest_quality() > 1.0 - perfect_; }
+
+  /// Returns by how much the sum of the qualities of all cells has risen.
+  double quality_gain(const Topology& topology) const {
+    return topology.part() ? quality_gain_.total(*topology.part()) : quality_gain_.total();
   }
 
-  bool is_perfect() const { return lowest_quality() > 1.0 - perfect_; }
+  /// Transforms the element with the lowest corrected quality.
+  Counts transform_worst(SmoothingState<dim, spacedim>& state) {
+    if (by_corrected_quality_.empty()) return {};
+    const CellIndex worst = worst_cell(state);
+    Trial& trial = trials_.front();
+    trial.clear();
+    transform(state.mesh, worst, [&](NodeIndex node, const Point<spacedim>& position) {
+      trial.move(state.mesh, node, position);
+    });
+    find_touched(state.mesh.topology(), ++n_transformations_, trial);
+    const bool keeps = is_valid(state.mesh, trial);
+    accept_or_undo(state, trial, keeps);
+    update_penalty(worst, keeps, worst);
+    last_picked_.assign(1, worst);
+    return {1, keeps ? 0U : 1U};
+  }
+
+  /// Transforms elements among the n with the lowest corrected quality at the same time. Their
+  /// owners find the new positions. All processes with cells around them say whether these are
+  /// valid. Collective.
+  Counts transform_round(SmoothingState<dim, spacedim>& state, std::size_t n) {
+    const WholeMesh whole(state.mesh.topology());
+    const auto candidates = lowest_cells(whole, by_corrected_quality_, n);
+    const auto positions = whole.gather(new_positions(state, candidates));
+    std::vector<CandidateNode> nodes;
+    for (const NewPosition& position : positions) nodes.push_back(position.node);
+    const auto chosen = independent_.choose(candidates, nodes);
+
+    trials_.resize(std::max(trials_.size(), candidates.size()));
+    for (Trial& trial : trials_) trial.clear();
+    std::vector<std::uint8_t> is_chosen(candidates.size(), 0);
+    for (const std::uint32_t place : chosen) is_chosen[place] = 1;
+    for (const auto& [node, x] : positions)
+      if (const auto here = whole.find_node(node.node); here && is_chosen[node.place])
+        trials_[node.place].move(state.mesh, *here, Point<spacedim>(x.data()));
+    std::vector<std::int64_t> n_invalid(candidates.size());
+    parallel_for(chosen.size(), [&](std::size_t k) {
+      Trial& trial = trials_[chosen[k]];
+      find_touched(state.mesh.topology(), n_transformations_ + static_cast<std::uint32_t>(k) + 1,
+                   trial);
+      n_invalid[chosen[k]] = !is_valid(state.mesh, trial);
+    });
+    n_transformations_ += static_cast<std::uint32_t>(chosen.size());
+    whole.sum(n_invalid);
+
+    Counts counts{chosen.size()};
+    std::vector<GlobalIndex> picked;
+    for (const std::uint32_t place : chosen) {
+      const bool keeps = n_invalid[place] == 0;
+      counts.n_undone += keeps ? 0 : 1;
+      accept_or_undo(state, trials_[place], keeps);
+      picked.push_back(candidates[place].cell);
+      const auto cell = whole.find_cell(picked.back());
+      if (cell && whole.owns_cell(*cell)) update_penalty(*cell, keeps, picked.back());
+    }
+    last_picked_ = std::move(picked);
+    return counts;
+  }
+
+  /// Returns where the free nodes of the candidates that this process owns would move.
+  std::vector<NewPosition> new_positions(const SmoothingState<dim, spacedim>& state,
+                                         std::span<const KeyedCell> candidates) {
+    const WholeMesh whole(state.mesh.topology());
+    std::vector<std::vector<NewPosition>> of_each(candidates.size());
+    parallel_for(candidates.size(), [&](std::size_t place) {
+      const auto cell = whole.find_cell(candidates[place].cell);
+      if (!cell || !whole.owns_cell(*cell)) return;
+      transform(state.mesh, *cell, [&](NodeIndex node, const Point<spacedim>& position) {
+        NewPosition& added = of_each[place].emplace_back();
+        added.node = {static_cast<std::uint32_t>(place), whole.node_number(node),
+                      state.cell_quality[*cell]};
+        std::copy_n(position.data(), spacedim, added.x.begin());
+      });
+    });
+    std::vector<NewPosition> all;
+    for (const auto& some : of_each) all.insert(all.end(), some.begin(), some.end());
+    return all;
+  }
 
   /// Returns the worst cell. If two elements share their worst face and so have equal quality, it
   /// is the one with the lower mean ratio (thesis, Section 4.7).
@@ -190,62 +318,74 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     return neighbour_sizes_.of(nodes);
   }
 
-  /// Moves the free nodes of a cell to their transformed positions; remembers the old ones.
-  [[gnu::flatten]] void transform(SmoothingState<dim, spacedim>& state, CellIndex cell) {
-    auto& mesh = state.mesh;
-    const auto& topology = mesh.topology();
-    const auto nodes = topology.cell_nodes(cell);
-    moved_.clear();
-    touched_.clear();
-    ++n_transformations_;
-    const Point<spacedim>* const x = std::as_const(mesh).coordinates().data();
-    with_target_corners(mesh, cell, coordinates_at(x), [&](auto corners) {
+  /// Calls move(node, new position) for the free nodes of a cell.
+  template <class Move>
+  [[gnu::flatten]] void transform(const Mesh<dim, spacedim>& mesh, CellIndex cell,
+                                  const Move& move) {
+    const auto nodes = mesh.topology().cell_nodes(cell);
+    with_target_corners(mesh, cell, coordinates_at(mesh.coordinates().data()), [&](auto corners) {
       with_result(corners, [&](auto result) {
         const double size = fitting_size(mesh, nodes);
         regularize(*regularization_, upper_side(mesh, cell), corners, result, size);
         map_to_target(mesh, cell, result);
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
-          if (topology.is_fixed(nodes[k])) continue;
-          moved_.emplace_back(nodes[k], x[nodes[k]]);
-          mesh.coordinates()[nodes[k]] = allowed_position(mesh, nodes[k], point_of(result[k]));
-          for (const CellIndex c : topology.node_cells(nodes[k])) {
-            if (touched_in_[c] == n_transformations_) continue;
-            touched_in_[c] = n_transformations_;
-            touched_.push_back(c);
-          }
-        }
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          if (!mesh.topology().is_fixed(nodes[k]))
+            move(nodes[k], allowed_position(mesh, nodes[k], point_of(result[k])));
       });
     });
   }
 
-  /// Evaluates the cells around the moved nodes of a cell. Resets these nodes if one of the cells
-  /// is invalid, or if a facet there is beyond its bound.
-  bool accept_or_undo(SmoothingState<dim, spacedim>& state, CellIndex cell) {
-    new_quality_.resize(touched_.size());
-    prefetch_corners(state.mesh.topology(), touched_, state.mesh.coordinates().data());
-    const auto set_if_valid = [&](std::size_t position, double q) {
-      new_quality_[position] = q;
-      return q > 0.0;
-    };
-    if (!for_each_mean_ratio(state.mesh, touched_, set_if_valid) ||
-        !keeps_facet_bound(state.mesh, state.mesh.topology().cell_nodes(cell))) {
-      for (const auto& [node, position] : moved_) state.mesh.coordinates()[node] = position;
-      return false;
-    }
-    for (std::size_t i = 0; i < touched_.size(); ++i) {
-      quality_gain_ += new_quality_[i] - state.cell_quality[touched_[i]];
-      state.cell_quality[touched_[i]] = new_quality_[i];
-    }
-    for (const auto& [node, position] : moved_) moved_in_cycle_.push_back(node);
-    return true;
+  /// Finds the cells with a moved node. transformation: its number.
+  void find_touched(const Topology& topology, std::uint32_t transformation, Trial& trial) {
+    trial.touched.clear();
+    for (const NodeIndex node : trial.moved)
+      for (const CellIndex c : topology.node_cells(node)) {
+        if (touched_in_[c] == transformation) continue;
+        touched_in_[c] = transformation;
+        trial.touched.push_back(c);
+      }
   }
 
-  void update_penalty(CellIndex cell, bool kept) {
+  /// Evaluates the touched cells. Returns false if one of them is invalid, or if a facet there is
+  /// beyond its bound.
+  bool is_valid(const Mesh<dim, spacedim>& mesh, Trial& trial) const {
+    trial.quality.resize(trial.touched.size());
+    prefetch_corners(mesh.topology(), trial.touched, mesh.coordinates().data());
+    const auto set_if_valid = [&](std::size_t position, double q) {
+      trial.quality[position] = q;
+      return q > 0.0;
+    };
+    return for_each_mean_ratio(mesh, trial.touched, set_if_valid) &&
+           keeps_facet_bound(mesh, trial.moved);
+  }
+
+  /// Takes over the qualities of the touched cells, or resets the moved nodes.
+  void accept_or_undo(SmoothingState<dim, spacedim>& state, const Trial& trial, bool keeps) {
+    if (!keeps) {
+      for (std::size_t k = 0; k < trial.moved.size(); ++k)
+        state.mesh.coordinates()[trial.moved[k]] = trial.before[k];
+      return;
+    }
+    const WholeMesh whole(state.mesh.topology());
+    for (std::size_t i = 0; i < trial.touched.size(); ++i) {
+      const CellIndex c = trial.touched[i];
+      const double before = std::exchange(state.cell_quality[c], trial.quality[i]);
+      if (!whole.owns_cell(c)) continue;
+      if (max_mean_loss_ < 1.0) quality_gain_.add(trial.quality[i] - before);
+      by_quality_.update(c, assess_(state.mesh, c, trial.quality[i]));
+      by_corrected_quality_.update(c, by_quality_.key(c) + penalties_[c]);
+    }
+    moved_in_cycle_.insert(moved_in_cycle_.end(), trial.moved.begin(), trial.moved.end());
+  }
+
+  /// number: that of the cell in the whole mesh.
+  void update_penalty(CellIndex cell, bool kept, GlobalIndex number) {
     double& penalty = penalties_[cell];
     penalty += kept ? penalty_success_ : penalty_invalid_;
-    if (cell == last_picked_) penalty += penalty_repeated_;
+    if (std::find(last_picked_.begin(), last_picked_.end(), number) != last_picked_.end())
+      penalty += penalty_repeated_;
     penalty = std::max(penalty, 0.0);
-    last_picked_ = cell;
+    by_corrected_quality_.update(cell, by_quality_.key(cell) + penalty);
   }
 
   ElementParameters<dim> element_ = default_parameters<dim>();
@@ -255,6 +395,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   double penalty_invalid_ = 1e-4;
   double penalty_repeated_ = 1e-5;
   double penalty_success_ = -1e-3;
+  int at_once_ = 0;
   int cycle_ = Assessment::cycle;
   int patience_ = Assessment::patience;
   int patience_below_start_ = 10;
@@ -263,16 +404,17 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   double perfect_ = 1e-4;
 
   MinTree by_quality_, by_corrected_quality_;
+  double lowest_key_ = MinTree::never;  ///< lowest quality of the whole mesh
   std::vector<double> penalties_;
-  CellIndex last_picked_ = no_cell;
-  double initial_quality_sum_ = 0.0, quality_gain_ = 0.0;  ///< of all cells
-  std::vector<std::pair<NodeIndex, Point<spacedim>>> moved_;
+  std::vector<GlobalIndex> last_picked_;  ///< one element, or those of a round
+  double initial_quality_sum_ = 0.0;      ///< of all cells
+  ExactSum quality_gain_;                 ///< of the cells that this process owns
+  IndependentCells independent_;
+  std::vector<Trial> trials_{1};
   std::vector<NodeIndex> moved_in_cycle_;
-  std::vector<CellIndex> touched_;  ///< cells with a moved node
   std::vector<std::uint32_t>
       touched_in_;  ///< number of the transformation that last touched a cell
   std::uint32_t n_transformations_ = 0;
-  std::vector<double> new_quality_;
 };
 
 template <int dim, int spacedim>

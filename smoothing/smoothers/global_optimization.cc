@@ -6,6 +6,7 @@
 #include "smoothing/optimization/feasible_newton.h"
 #include "smoothing/optimization/shape_objective.h"
 #include "smoothing/optimization/vertex_descent.h"
+#include "smoothing/parts/whole_mesh.h"
 #include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
@@ -40,7 +41,8 @@ class GlobalOptimization final : public Smoother<dim> {
     const bool best = result_ != 0;  // the method itself uses no mean ratio
     return {.quality_use = best ? QualityUse::loop : QualityUse::none,
             .result = best ? ResultMesh::best_q_mean : ResultMesh::last,
-            .takes_targets = true};
+            .takes_targets = true,
+            .works_in_parts = start_sweeps_ == 0};
   }
   StoppingRule stopping() const override {
     return {.criterion = StoppingRule::Criterion::step_says_so, .max_iterations = max_iterations_};
@@ -77,8 +79,10 @@ class GlobalOptimization final : public Smoother<dim> {
   void limit(Newton& newton, const Mesh<dim>& mesh) const {
     constexpr int max_rounds = 5;
     newton.shorten(mesh, max_rounds, [&](int, const Points& to, std::vector<double>& limits) {
-      return feasible_fractions<dim>(mesh.topology(), mesh.coordinates(), to,
-                                     newton_parameters_.determinant_fraction, limits) != 1.0;
+      return WholeMesh(mesh.topology())
+                 .min(feasible_fractions<dim>(mesh.topology(), mesh.coordinates(), to,
+                                              newton_parameters_.determinant_fraction, limits)) !=
+             1.0;
     });
     if (mesh.targets()) keep_sizes(newton, mesh);
   }

@@ -8,6 +8,7 @@
 
 #include "smoothing/getme/neighbour_weights.h"
 #include "smoothing/getme/node_sums.h"
+#include "smoothing/parts/exact_sum.h"
 #include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem {
@@ -211,6 +212,39 @@ TEST_F(NodeSumsOfManyBlocks, OfSomeNodesAreSetAloneAndBitwiseIdentical) {
       ASSERT_EQ(sums[i][l], (wanted[i] ? 2.0 : 1.0) * expected[n_lanes * i + l]) << i;
   add_factor(1.0);
   EXPECT_EQ(values(sums), expected);
+}
+
+TEST(ExactSums, DoNotDependOnTheOrder) {
+  std::vector<double> terms{1e300, -1e300, 5e-324, -3e-310, 0.0, -0.0};
+  for (int k = 1; k < 2000; ++k) terms.push_back((k % 3 == 0 ? -1.0 : 1.0) / k);
+  ExactSum up, down, split;
+  for (const double term : terms) up.add(term);
+  for (std::size_t k = terms.size(); k-- > 0;) down.add(terms[k]);
+  EXPECT_EQ(up.total(), down.total());
+  for (std::size_t part = 0; part < 7; ++part) {
+    ExactSum sum;
+    for (std::size_t k = part; k < terms.size(); k += 7) sum.add(terms[k]);
+    split.add(sum);
+  }
+  EXPECT_EQ(split.total(), up.total());
+  long double reference = 0.0L;
+  for (std::size_t k = 2; k < terms.size(); ++k) reference += static_cast<long double>(terms[k]);
+  EXPECT_DOUBLE_EQ(up.total(), static_cast<double>(reference));
+}
+
+TEST(ExactSums, LoseNothing) {
+  const auto sum_of = [](std::initializer_list<double> terms) {
+    ExactSum sum;
+    for (const double term : terms) sum.add(term);
+    return sum.total();
+  };
+  EXPECT_EQ(sum_of({}), 0.0);
+  EXPECT_EQ(sum_of({1e300, 1.0, -1e300}), 1.0);
+  EXPECT_EQ(sum_of({-0x1p-1074}), -0x1p-1074);
+  EXPECT_EQ(sum_of({0x1p52, -0x1p-40, -0x1p52}), -0x1p-40);
+  EXPECT_EQ(sum_of({std::numeric_limits<double>::max(), -1.0}), std::numeric_limits<double>::max());
+  EXPECT_EQ(sum_of({1.0, std::numeric_limits<double>::infinity()}),
+            std::numeric_limits<double>::infinity());
 }
 
 }  // namespace
