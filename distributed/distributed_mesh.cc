@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distributed/distributed_mesh.h"
 
+#include <optional>
+
 #include "smoothing/base/parallel.h"
 #include "smoothing/mesh/interfaces.h"
 
@@ -8,30 +10,113 @@ namespace smoothfem {
 
 namespace {
 
-/// The part of a rank, with its exchange of copies.
-class RankPart final : public MeshPart {
+/// Exchange between owners and copies of the nodes or of the cells of a part.
+class CopyExchange {
  public:
-  /// positions: the nodes of the part in the order of the halo's entries.
-  RankPart(const Ranks& ranks, std::vector<GlobalIndex> nodes, std::vector<std::uint8_t> owns_node,
-           std::vector<GlobalIndex> cells, std::vector<std::uint8_t> owns_cell,
-           std::size_t n_cells_of_whole, Halo halo, std::vector<NodeIndex> positions)
-      : MeshPart(std::move(nodes), std::move(owns_node), std::move(cells), std::move(owns_cell),
-                 n_cells_of_whole),
-        ranks_(ranks),
-        halo_(std::move(halo)),
-        positions_(std::move(positions)) {
-    while (n_own_ < positions_.size() && this->owns_node(positions_[n_own_])) ++n_own_;
+  /// numbers: in the whole mesh, ascending. owners: the rank that owns each. Collective.
+  CopyExchange(const Ranks& ranks, std::span<const GlobalIndex> numbers,
+               std::span<const int> owners);
+
+  /// Returns the number of owned ones of the whole mesh.
+  std::size_t n_of_whole() const { return n_of_whole_; }
+
+  void update(std::span<double> values, std::size_t n) const {
+    for (std::size_t d = 0; d < n; ++d) {
+      auto entries = own_entries(values, n, d);
+      halo_.update(entries);
+      take(entries, n_own_, values, n, d);
+    }
+  }
+  /// Replaces each value by the sum over its copies.
+  void sum(std::span<double> values) const {
+    auto entries = own_entries(values, 1, 0);
+    for (std::size_t k = n_own_; k < positions_.size(); ++k)
+      entries[static_cast<Eigen::Index>(k)] = values[positions_[k]];
+    halo_.add_to_owners(entries);
+    halo_.update(entries);
+    take(entries, 0, values, 1, 0);
   }
 
-  void update(std::span<double> values, std::size_t n) const override {
+ private:
+  Eigen::VectorXd own_entries(std::span<const double> values, std::size_t n, std::size_t d) const {
     Eigen::VectorXd entries(static_cast<Eigen::Index>(positions_.size()));
-    for (std::size_t d = 0; d < n; ++d) {
-      for (std::size_t k = 0; k < n_own_; ++k)
-        entries[static_cast<Eigen::Index>(k)] = values[n * positions_[k] + d];
-      halo_.update(entries);
-      for (std::size_t k = n_own_; k < positions_.size(); ++k)
-        values[n * positions_[k] + d] = entries[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < n_own_; ++k)
+      entries[static_cast<Eigen::Index>(k)] = values[n * positions_[k] + d];
+    return entries;
+  }
+  void take(const Eigen::VectorXd& entries, std::size_t first, std::span<double> values,
+            std::size_t n, std::size_t d) const {
+    for (std::size_t k = first; k < positions_.size(); ++k)
+      values[n * positions_[k] + d] = entries[static_cast<Eigen::Index>(k)];
+  }
+
+  Halo halo_;
+  std::vector<std::uint32_t> positions_;  ///< own ones, then copies, in the order of the halo
+  std::size_t n_own_ = 0, n_of_whole_ = 0;
+};
+
+CopyExchange::CopyExchange(const Ranks& ranks, std::span<const GlobalIndex> numbers,
+                           std::span<const int> owners) {
+  std::vector<GlobalIndex> own;
+  std::vector<std::uint32_t> copies;
+  std::vector<std::vector<GlobalIndex>> asked(static_cast<std::size_t>(ranks.size()));
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) {
+    if (owners[i] == ranks.rank()) {
+      own.push_back(numbers[i]);
+      positions_.push_back(i);
+    } else {
+      asked[static_cast<std::size_t>(owners[i])].push_back(numbers[i]);
+      copies.push_back(i);
     }
+  }
+  n_own_ = own.size();
+  const std::size_t first = ranks.exclusive_scan(n_own_);
+  n_of_whole_ = ranks.sum(n_own_);
+  const auto questions = ranks.exchange(std::move(asked));
+  std::vector<std::vector<std::size_t>> answers(questions.size());
+  for (std::size_t r = 0; r < questions.size(); ++r)
+    for (const GlobalIndex number : questions[r])
+      answers[r].push_back(
+          first +
+          static_cast<std::size_t>(std::lower_bound(own.begin(), own.end(), number) - own.begin()));
+  const auto places = ranks.exchange(std::move(answers));
+  // Copies of one owner are asked for in ascending order, and so are their numbers.
+  std::stable_sort(copies.begin(), copies.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return owners[a] < owners[b]; });
+  positions_.insert(positions_.end(), copies.begin(), copies.end());
+  std::vector<std::size_t> ghosts;
+  for (const auto& of_rank : places) ghosts.insert(ghosts.end(), of_rank.begin(), of_rank.end());
+  halo_ = Halo(ranks, n_of_whole_, first, n_own_, ghosts);
+}
+
+/// The part of a rank.
+class RankPart final : public MeshPart {
+ public:
+  /// node_owners: the rank that owns each node. owners_of_copies: the rank that owns each cell that
+  /// this one does not own. Collective.
+  RankPart(const Ranks& ranks, std::vector<GlobalIndex> nodes, std::span<const int> node_owners,
+           std::vector<GlobalIndex> cells, std::vector<std::uint8_t> owns_cell,
+           std::vector<int> owners_of_copies, std::size_t n_cells_of_whole)
+      : MeshPart(std::move(nodes), are_own(ranks, node_owners), std::move(cells),
+                 std::move(owns_cell), n_cells_of_whole),
+        ranks_(ranks),
+        node_exchange_(ranks, this->nodes(), node_owners),
+        owners_of_copies_(std::move(owners_of_copies)) {}
+
+  std::size_t n_nodes_of_whole() const { return node_exchange_.n_of_whole(); }
+
+  void update(std::span<double> values, std::size_t n) const override {
+    node_exchange_.update(values, n);
+  }
+  void sum_copies_of_cells(std::span<double> values) const override {
+    if (!cell_exchange_) {
+      std::vector<int> owners;
+      auto owner_of_copy = owners_of_copies_.begin();
+      for (CellIndex c = 0; c < cells().size(); ++c)
+        owners.push_back(owns_cell(c) ? ranks_.rank() : *owner_of_copy++);
+      cell_exchange_.emplace(ranks_, cells(), owners);
+    }
+    cell_exchange_->sum(values);
   }
   void sum(std::span<std::int64_t> values) const override { ranks_.sum(values); }
   void min(std::span<double> values) const override { ranks_.min(values); }
@@ -41,14 +126,20 @@ class RankPart final : public MeshPart {
   using MeshPart::sum;
 
  private:
+  static std::vector<std::uint8_t> are_own(const Ranks& ranks, std::span<const int> owners) {
+    std::vector<std::uint8_t> flags;
+    flags.reserve(owners.size());
+    for (const int owner : owners) flags.push_back(owner == ranks.rank());
+    return flags;
+  }
   std::vector<std::byte> gather_bytes(std::span<const std::byte> bytes) const override {
     return ranks_.gather_all(bytes);
   }
 
   Ranks ranks_;
-  Halo halo_;
-  std::vector<NodeIndex> positions_;
-  std::size_t n_own_ = 0;
+  CopyExchange node_exchange_;
+  std::vector<int> owners_of_copies_;
+  mutable std::optional<CopyExchange> cell_exchange_;  ///< few methods need it
 };
 
 /// The nodes of some cells, and who owns each.
@@ -73,10 +164,14 @@ OwnedNodes choose_owners(ScatteredMesh<dim>& mesh) {
   return nodes;
 }
 
+struct CellsOfPart {
+  OwnedNodes nodes;
+  std::vector<std::uint8_t> owns_cell{};
+  std::vector<int> owners_of_copies{};  ///< in the order of the copied cells
+};
+
 /// Sends each cell to the owners of its nodes, and merges the cells from others into the table.
-/// Returns the nodes of all of them, and flags of the cells that this rank owns.
-std::pair<OwnedNodes, std::vector<std::uint8_t>> add_copies(const Ranks& ranks, CellTable& cells,
-                                                            const OwnedNodes& nodes) {
+CellsOfPart add_copies(const Ranks& ranks, CellTable& cells, const OwnedNodes& nodes) {
   // The owners of a cell's corners follow its words.
   std::vector<std::vector<GlobalIndex>> sent(static_cast<std::size_t>(ranks.size()));
   std::vector<int> owners, others;
@@ -109,51 +204,15 @@ std::pair<OwnedNodes, std::vector<std::uint8_t>> add_copies(const Ranks& ranks, 
     all.owners[all.numbers.position(before[i])] = nodes.owners[i];
   for_each_copied(
       [&](GlobalIndex number, int owner) { all.owners[all.numbers.position(number)] = owner; });
-  auto owns_cell = merge_into(cells, sorted_cells(received, 1));
-  return {std::move(all), std::move(owns_cell)};
-}
-
-/// Returns the part's exchange: own nodes are numbered rank by rank.
-std::shared_ptr<const MeshPart> make_rank_part(const Ranks& ranks, std::vector<GlobalIndex> numbers,
-                                               const std::vector<int>& owners,
-                                               std::vector<GlobalIndex> cells,
-                                               std::vector<std::uint8_t> owns_cell,
-                                               std::size_t n_cells_of_whole,
-                                               std::size_t& n_nodes_of_whole) {
-  std::vector<std::uint8_t> owns_node;
-  std::vector<GlobalIndex> own;
-  std::vector<NodeIndex> positions, copies;
-  std::vector<std::vector<GlobalIndex>> asked(static_cast<std::size_t>(ranks.size()));
-  for (NodeIndex i = 0; i < numbers.size(); ++i) {
-    owns_node.push_back(owners[i] == ranks.rank());
-    if (owns_node.back()) {
-      own.push_back(numbers[i]);
-      positions.push_back(i);
-    } else {
-      asked[static_cast<std::size_t>(owners[i])].push_back(numbers[i]);
-      copies.push_back(i);
-    }
-  }
-  const std::size_t first = ranks.exclusive_scan(own.size());
-  n_nodes_of_whole = ranks.sum(own.size());
-  const auto questions = ranks.exchange(std::move(asked));
-  std::vector<std::vector<std::size_t>> answers(questions.size());
-  for (std::size_t r = 0; r < questions.size(); ++r)
-    for (const GlobalIndex number : questions[r])
-      answers[r].push_back(
-          first +
-          static_cast<std::size_t>(std::lower_bound(own.begin(), own.end(), number) - own.begin()));
-  const auto places = ranks.exchange(std::move(answers));
-  // Copies of one owner are asked for in ascending order, and so are their numbers.
-  std::stable_sort(copies.begin(), copies.end(),
-                   [&](NodeIndex a, NodeIndex b) { return owners[a] < owners[b]; });
-  positions.insert(positions.end(), copies.begin(), copies.end());
-  std::vector<std::size_t> ghosts;
-  for (const auto& of_rank : places) ghosts.insert(ghosts.end(), of_rank.begin(), of_rank.end());
-  return std::make_shared<RankPart>(ranks, std::move(numbers), std::move(owns_node),
-                                    std::move(cells), std::move(owns_cell), n_cells_of_whole,
-                                    Halo(ranks, n_nodes_of_whole, first, own.size(), ghosts),
-                                    std::move(positions));
+  std::vector<std::pair<GlobalIndex, int>> copies;
+  for (std::size_t r = 0; r < received.size(); ++r)
+    for (std::size_t at = 0; at < received[r].size(); at += 3 + 2 * received[r][at + 2])
+      copies.emplace_back(received[r][at], static_cast<int>(r));
+  std::sort(copies.begin(), copies.end());
+  CellsOfPart result{std::move(all)};
+  for (const auto& [number, owner] : copies) result.owners_of_copies.push_back(owner);
+  result.owns_cell = merge_into(cells, sorted_cells(received, 1));
+  return result;
 }
 
 /// Returns why each node of a part stays. Boundary and interfaces are known where all cells around
@@ -217,13 +276,13 @@ CompressedRows<NodeIndex> local_rows(CellTable& cells, const NumberSet& numbers)
 
 template <int dim>
 DistributedMesh<dim> distribute(const Ranks& ranks, ScatteredMesh<dim> mesh) {
-  auto [nodes, owns_cell] = add_copies(ranks, mesh.cells, choose_owners(mesh));
-  std::size_t n_nodes = 0;
+  auto [nodes, owns_cell, owners_of_copies] = add_copies(ranks, mesh.cells, choose_owners(mesh));
+  const auto part = std::make_shared<const RankPart>(
+      ranks, nodes.numbers.numbers(), nodes.owners, std::move(mesh.cells.numbers),
+      std::move(owns_cell), std::move(owners_of_copies), mesh.n_cells);
+  const auto numbers = part->nodes();
   MeshLabels labels;
-  labels.part =
-      make_rank_part(ranks, nodes.numbers.numbers(), nodes.owners, std::move(mesh.cells.numbers),
-                     std::move(owns_cell), mesh.n_cells, n_nodes);
-  const auto numbers = labels.part->nodes();
+  labels.part = part;
   std::vector<std::uint8_t> is_neighbour(static_cast<std::size_t>(ranks.size()), 0);
   for (const int owner : nodes.owners)
     is_neighbour[static_cast<std::size_t>(owner)] = owner != ranks.rank();
@@ -242,7 +301,7 @@ DistributedMesh<dim> distribute(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   points.reserve(numbers.size());
   for (const auto& x : mesh.nodes.ask(numbers, [](const NodeEntry<dim>& entry) { return entry.x; }))
     points.push_back(Point<dim>(x.data()));
-  return {Mesh<dim>(std::move(topology), std::move(points)), n_nodes, n_neighbours,
+  return {Mesh<dim>(std::move(topology), std::move(points)), part->n_nodes_of_whole(), n_neighbours,
           std::move(mesh.nodes)};
 }
 

@@ -256,4 +256,19 @@ void Halo::update(Eigen::VectorXd& values) const {
       ghosts, partition_->requests);
 }
 
+void Halo::add_to_owners(Eigen::VectorXd& values) const {
+  if (!partition_) return;
+  const auto& partitioner = partition_->partitioner;
+  const std::size_t n_own = partitioner.locally_owned_size();
+  const dealii::ArrayView<double> own(values.data(), n_own);
+  const dealii::ArrayView<double> ghosts(values.data() + n_own, partitioner.n_ghost_indices());
+  const dealii::ArrayView<double> received(partition_->sent.data(), partition_->sent.size());
+  partitioner.import_from_ghosted_array_start<double, dealii::MemorySpace::Host>(
+      dealii::VectorOperation::add, 0, ghosts, received, partition_->requests);
+  partitioner.import_from_ghosted_array_finish<double, dealii::MemorySpace::Host>(
+      dealii::VectorOperation::add,
+      dealii::ArrayView<const double>(received.data(), received.size()), own, ghosts,
+      partition_->requests);
+}
+
 }  // namespace smoothfem

@@ -142,6 +142,8 @@ class Halo {
 
   /// Fetches the copies from their owners. values: n_own + number of ghosts. Collective.
   void update(Eigen::VectorXd& values) const;
+  /// Adds the copies to their owners' values. Collective.
+  void add_to_owners(Eigen::VectorXd& values) const;
 
  private:
   struct Partition;

@@ -110,9 +110,14 @@ class TermRounding {
   Lanes shift_{};
 };
 
+/// Limits of the sums of a node if no weight is above 1.
+struct SumLimits {
+  double length = 0.0, weight = 0.0;
+};
+
 /// Returns the limits for the elements of all parts. Collective.
 template <int dim, int spacedim>
-TermRounding make_rounding(const Mesh<dim, spacedim>& mesh) {
+SumLimits limits_of_sums(const Mesh<dim, spacedim>& mesh) {
   constexpr double longest_movement = 16.0;  // in lengths of the longest edge, with a margin
   double longest = 0.0, most_cells = 0.0;
   const auto x = mesh.coordinates();
@@ -126,7 +131,7 @@ TermRounding make_rounding(const Mesh<dim, spacedim>& mesh) {
     most_cells = std::max(most_cells, static_cast<double>(mesh.topology().node_cells(i).size()));
   std::array largest{std::sqrt(longest), most_cells};
   mesh.topology().part()->max(std::span<double>(largest));
-  return {longest_movement * largest[0] * largest[1], 2.0 * largest[1], spacedim};
+  return {longest_movement * largest[0] * largest[1], 2.0 * largest[1]};
 }
 
 /// Weight of an element with a target: the inverse square of the target's width, so that deviations
@@ -288,7 +293,8 @@ struct ElementPass<dim, spacedim>::Tables {
   const double* prescribed = nullptr;
   std::vector<double> unit_sizes;  ///< of all cells, if the mesh has targets
   NodeSums sums;
-  std::optional<TermRounding> rounding;    ///< of parts of a mesh
+  SumLimits limits;                        ///< in a part of a mesh
+  std::optional<TermRounding> rounding;    ///< in a part of a mesh, for weights up to 1
   std::vector<PartialQuality> qualities;   ///< of each block of cells
   std::vector<std::uint8_t> marked_nodes;  ///< nodes whose sums have to be added again
   std::vector<std::uint8_t> marked_cells;  ///< cells that add to these sums
@@ -339,7 +345,10 @@ void ElementPass<dim, spacedim>::prepare(const Mesh<dim, spacedim>& mesh,
   tables_->prescribed = mesh.targets() ? tables_->unit_sizes.data() : nullptr;
   tables_->sums.prepare(topology);
   tables_->rounding.reset();
-  if (topology.part()) tables_->rounding.emplace(make_rounding(mesh));
+  if (topology.part()) {
+    tables_->limits = limits_of_sums(mesh);
+    tables_->rounding.emplace(tables_->limits.length, tables_->limits.weight, spacedim);
+  }
   tables_->qualities.resize(topology.blocks().size());
   sums_ = tables_->sums[0];
 }
@@ -424,13 +433,21 @@ void ElementPass<dim, spacedim>::transform_some(const SmoothingState<dim, spaced
     else
       tables_->sizes.update(state.mesh, tables_->nodes_of(state.mesh.topology(), cells));
   }
+  std::optional<TermRounding> rounding;
+  if (const MeshPart* part = state.mesh.topology().part()) {
+    double largest = 0.0;
+    for (const CellIndex c : cells) largest = std::max(largest, weights[c]);
+    largest = part->max(std::max(largest, 1.0));
+    rounding.emplace(largest * tables_->limits.length, largest * tables_->limits.weight, spacedim);
+  }
   const Pass<dim, spacedim, ThresholdWeighting> pass{state.mesh,
                                                      *tables_->element,
                                                      tables_->sizes,
                                                      tables_->prescribed,
                                                      {weights.data(), threshold},
                                                      tables_->element->fits_neighbours(),
-                                                     state.mesh.targets() != nullptr};
+                                                     state.mesh.targets() != nullptr,
+                                                     rounding ? &*rounding : nullptr};
   auto& marked_nodes = tables_->marked_nodes;
   marked_nodes.assign(state.mesh.n_nodes(), 0);
   for (const NodeIndex i : nodes) marked_nodes[i] = 1;
@@ -438,6 +455,7 @@ void ElementPass<dim, spacedim>::transform_some(const SmoothingState<dim, spaced
                              [&](std::size_t, std::span<const CellIndex> some, double* sums) {
                                add_to_marked(pass, some, marked_nodes, sums);
                              });
+  base_ = rounding ? state.mesh.coordinates().data() : nullptr;
 }
 
 template class ElementPass<2>;

@@ -22,16 +22,16 @@ struct CandidateNode {
   double second_key;  ///< of the candidate: decides between equal keys
 };
 
-/// Chooses among candidates those that can move their nodes at the same time: no cell has moving
-/// nodes of two of them. The choice does not depend on the parts of a mesh.
+/// Chooses candidates that can move their nodes at the same time: no cell has moving nodes of two
+/// of them. The choice does not depend on the parts of a mesh.
 class IndependentCells {
  public:
   /// Prepares a run; call it first.
   void prepare(const Topology& topology);
 
-  /// Returns the places of the chosen, in the order of their keys. The first one is always chosen.
-  /// nodes: all that would move, on all processes; those of a candidate follow each other.
-  /// Collective.
+  /// Returns the places of the chosen candidates, in the order of their keys. The first one is
+  /// always chosen. nodes: all that would move, on all processes; those of a candidate follow each
+  /// other. Collective.
   std::vector<std::uint32_t> choose(std::span<const KeyedCell> candidates,
                                     std::span<const CandidateNode> nodes);
 

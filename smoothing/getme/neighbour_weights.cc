@@ -7,6 +7,7 @@
 
 #include "smoothing/base/parallel.h"
 #include "smoothing/mesh/parallel_rows.h"
+#include "smoothing/parts/mesh_part.h"
 
 namespace smoothfem {
 
@@ -91,7 +92,9 @@ class AscendingNumbers {
 };
 
 /// Finds the cells that share several nodes with a cell, by counting. In large meshes the numbers
-/// of the cells around a cell lie close together.
+/// of the cells around a cell lie close together. In a part of a mesh, only those whose first
+/// common node, in the order of the cell's corners, is the part's own: each pair of cells is then
+/// found in one part.
 class SharedCells {
  public:
   /// Appends them to an empty row, ascending. Returns the number of cells that share a node or
@@ -108,12 +111,16 @@ class SharedCells {
       several_.resize(counts_.size());
     }
     std::size_t n = 0;
-    for (const NodeIndex node : topology.cell_nodes(cell))
+    for (const NodeIndex node : topology.cell_nodes(cell)) {
+      const bool is_own = topology.part() == nullptr || topology.part()->owns_node(node);
       for (const CellIndex other : topology.node_cells(node)) {
-        const std::uint32_t count = ++counts_[other - first];
-        n += count == 1;
+        std::uint32_t& count = counts_[other - first];
+        if (count == 0 && !is_own) count = of_another_part;
+        ++count;
+        n += count == 1 && other != cell;
         several_.add_if(count == 2, other - first);
       }
+    }
     SharedCellCode code(cell);
     several_.take_out([&](std::size_t number) {
       const CellIndex other = first + static_cast<CellIndex>(number);
@@ -126,10 +133,12 @@ class SharedCells {
     });
     for (const NodeIndex node : topology.cell_nodes(cell))
       for (const CellIndex other : topology.node_cells(node)) counts_[other - first] = 0;
-    return n - 1;
+    return n;
   }
 
  private:
+  static constexpr std::uint32_t of_another_part = 0x80000000;  ///< keeps counts from being low
+
   std::vector<std::uint32_t> counts_;  ///< numbers of shared nodes by cell; zero between two calls
   AscendingNumbers several_;  ///< positions where counts_ is 2 or more; empty between two calls
 };
@@ -148,10 +157,17 @@ void NeighbourWeights::prepare(std::shared_ptr<const Topology> topology) {
       });
   node_sums_.resize(topology_->n_nodes());
   weights_.assign(topology_->n_cells(), 1.0);
+  if (const MeshPart* part = topology_->part()) {
+    surplus_.assign(n_neighbours_.begin(), n_neighbours_.end());
+    part->sum_copies_of_cells(surplus_);
+    std::transform(surplus_.begin(), surplus_.end(), n_neighbours_.begin(),
+                   [](double n) { return static_cast<std::uint32_t>(n); });
+  }
 }
 
 void NeighbourWeights::compute(std::span<const CellIndex> cells,
                                const std::vector<double>& cell_quality) {
+  if (topology_->part()) return compute_in_part(cell_quality);
   const bool all = cells.size() == topology_->n_cells();
   is_needed_.assign(topology_->n_nodes(), all);
   if (!all)
@@ -184,6 +200,44 @@ double NeighbourWeights::weight(CellIndex cell, const std::vector<double>& cell_
                        });
   return std::sqrt(std::max(sum, 0.0) /
                    (static_cast<double>(n_neighbours_[cell]) * cell_quality[cell]));
+}
+
+/// Qualities are rounded to multiples of 2^-40, so that the parts' sums are exact.
+void NeighbourWeights::compute_in_part(const std::vector<double>& cell_quality) {
+  constexpr double shift = 0x1.8p12;
+  constexpr std::size_t grain = 4096;
+  const MeshPart& part = *topology_->part();
+  rounded_.resize(cell_quality.size());
+  std::transform(cell_quality.begin(), cell_quality.end(), rounded_.begin(),
+                 [](double q) { return (q + shift) - shift; });
+  parallel_for_ranges(topology_->n_nodes(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      node_sums_[i] = 0.0;
+      for (const CellIndex c : topology_->node_cells(static_cast<NodeIndex>(i)))
+        node_sums_[i] += rounded_[c];
+    }
+  });
+  part.update(node_sums_, 1);
+  parallel_for_ranges(topology_->n_cells(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      surplus_[c] = 0.0;
+      SharedCellCode::read(static_cast<CellIndex>(c), counted_too_often_[c],
+                           [&](std::size_t other, std::uint32_t surplus) {
+                             surplus_[c] += static_cast<double>(surplus) * rounded_[other];
+                           });
+    }
+  });
+  part.sum_copies_of_cells(surplus_);
+  parallel_for_ranges(topology_->n_cells(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      if (n_neighbours_[c] == 0) continue;
+      const auto nodes = topology_->cell_nodes(static_cast<CellIndex>(c));
+      double sum = -surplus_[c] - static_cast<double>(nodes.size()) * rounded_[c];
+      for (const NodeIndex node : nodes) sum += node_sums_[node];
+      weights_[c] =
+          std::sqrt(std::max(sum, 0.0) / (static_cast<double>(n_neighbours_[c]) * cell_quality[c]));
+    }
+  });
 }
 
 }  // namespace smoothfem

@@ -18,17 +18,19 @@ namespace smoothfem {
 /// times too often.
 class NeighbourWeights {
  public:
-  /// Finds the shared nodes, unless this was done for the same topology before.
+  /// Finds the shared nodes, unless this was done for the same topology before. Collective in a
+  /// part of a mesh, as compute().
   void prepare(std::shared_ptr<const Topology> topology);
 
   /// Computes the weights of these cells from the quality of all cells, which has to be positive.
-  /// Elements without neighbours have weight 1.
+  /// Elements without neighbours have weight 1. In a part of a mesh, all cells get their weights.
   void compute(std::span<const CellIndex> cells, const std::vector<double>& cell_quality);
 
   const std::vector<double>& weights() const { return weights_; }
 
  private:
   double weight(CellIndex cell, const std::vector<double>& cell_quality) const;
+  void compute_in_part(const std::vector<double>& cell_quality);
 
   std::shared_ptr<const Topology> topology_;
   std::vector<std::uint32_t> n_neighbours_;  ///< |N(j)| of each cell
@@ -37,6 +39,8 @@ class NeighbourWeights {
   CompressedRows<std::uint16_t> counted_too_often_;
   std::vector<std::uint8_t> is_needed_;  ///< nodes of the cells whose weights are computed
   std::vector<double> node_sums_;        ///< sums of the qualities of each node's cells
+  std::vector<double> surplus_;          ///< in a part: what each cell's sums count too often
+  std::vector<double> rounded_;          ///< in a part: quality of each cell
   std::vector<double> weights_;
 };
 

@@ -6,6 +6,8 @@
 #include "smoothing/getme/element_pass.h"
 #include "smoothing/getme/neighbour_weights.h"
 #include "smoothing/loop/catalogue.h"
+#include "smoothing/parts/order_statistic.h"
+#include "smoothing/parts/shared_coordinates.h"
 #include "smoothing/quality/local_quality.h"
 
 namespace smoothfem {
@@ -92,7 +94,7 @@ class AdaptiveStage : public Smoother<dim> {
     StepReport report;
     report.n_reset = relax_until_valid(state);
     report.quality = mesh_quality(state.mesh.topology(), state.cell_quality);
-    if (threshold < 1.0) report.moved = moving;
+    if (threshold < 1.0 && state.mesh.topology().part() == nullptr) report.moved = moving;
     return report;
   }
 
@@ -102,6 +104,7 @@ class AdaptiveStage : public Smoother<dim> {
   /// Finds the free nodes of transformed elements and the cells around them.
   void find_active(const SmoothingState<dim>& state, double threshold) {
     const Topology& topology = state.mesh.topology();
+    const WholeMesh whole(topology);
     for (const NodeIndex i : arrays_->moving) arrays_->marked[i] = 0;
     for (const CellIndex c : arrays_->active_cells) arrays_->active[c] = 0;
     if (threshold >= 1.0) {
@@ -114,7 +117,7 @@ class AdaptiveStage : public Smoother<dim> {
     for (CellIndex c = 0; c < topology.n_cells(); ++c)
       if (state.cell_quality[c] <= threshold)
         for (const NodeIndex i : topology.cell_nodes(c))
-          if (!topology.is_fixed(i)) arrays_->marked[i] = 1;
+          if (!topology.is_fixed(i) && whole.owns_node(i)) arrays_->marked[i] = 1;
     list_marked(arrays_->marked, arrays_->moving);
     for (const NodeIndex i : arrays_->moving)
       for (const CellIndex c : topology.node_cells(i)) arrays_->active[c] = 1;
@@ -147,12 +150,11 @@ class AdaptiveStage : public Smoother<dim> {
   }
 
   /// Shortens the movements around invalid cells until none is left. Returns the number of nodes
-  /// that do not move.
+  /// that do not move, of the whole mesh. Collective in a part of a mesh.
   std::size_t relax_until_valid(SmoothingState<dim>& state) {
     const Topology& topology = state.mesh.topology();
     std::size_t n_reset = 0;
-    std::span<const CellIndex> cells = arrays_->active_cells;
-    std::vector<CellIndex> around;
+    std::vector<CellIndex> cells = with_cells_of_copies(state, arrays_->active_cells);
     while (true) {
       evaluate(state, cells);
       std::vector<NodeIndex> shortened;
@@ -161,7 +163,8 @@ class AdaptiveStage : public Smoother<dim> {
           for (const NodeIndex i : topology.cell_nodes(c))
             if (arrays_->marked[i] && arrays_->level[i] + 1u < relaxation_.size())
               shortened.push_back(i);
-      if (shortened.empty()) return n_reset;
+      if (!holds_anywhere(topology, !shortened.empty()))
+        return topology.part() ? topology.part()->sum(n_reset) : n_reset;
       std::sort(shortened.begin(), shortened.end());
       shortened.erase(std::unique(shortened.begin(), shortened.end()), shortened.end());
       for (const NodeIndex i : shortened) {
@@ -169,9 +172,21 @@ class AdaptiveStage : public Smoother<dim> {
         set_position(state.mesh, i);
         if (relaxation_[arrays_->level[i]] == 0.0) ++n_reset;
       }
-      around = topology.cells_around(shortened);
-      cells = around;
+      cells = with_cells_of_copies(state, topology.cells_around(shortened));
     }
+  }
+
+  /// In a part of a mesh: moves copies where their owners are. Returns some cells (ascending) and
+  /// those around these copies, ascending.
+  static std::vector<CellIndex> with_cells_of_copies(SmoothingState<dim>& state,
+                                                     std::vector<CellIndex> cells) {
+    if (state.mesh.topology().part() == nullptr) return cells;
+    const auto others = state.mesh.topology().cells_around(changed_copies(state.mesh));
+    const auto n = static_cast<std::ptrdiff_t>(cells.size());
+    cells.insert(cells.end(), others.begin(), others.end());
+    std::inplace_merge(cells.begin(), cells.begin() + n, cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    return cells;
   }
 
   std::vector<double> relaxation_;
@@ -196,7 +211,8 @@ class AdaptiveMeanStage final : public AdaptiveStage<dim> {
   SmootherTraits traits() const override {
     return {.quality_use = QualityUse::smoother,
             .result = ResultMesh::best_q_mean,
-            .takes_targets = true};
+            .takes_targets = true,
+            .works_in_parts = !this->element_.fits_neighbours()};
   }
   StoppingRule stopping() const override {
     return {.criterion = StoppingRule::Criterion::q_mean_gain,
@@ -250,7 +266,8 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
   SmootherTraits traits() const override {
     return {.quality_use = QualityUse::smoother,
             .result = ResultMesh::best_q_star_min,
-            .takes_targets = true};
+            .takes_targets = true,
+            .works_in_parts = !this->element_.fits_neighbours()};
   }
   StoppingRule stopping() const override {
     return {.criterion = StoppingRule::Criterion::step_says_so,
@@ -287,13 +304,11 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
   enum NoGain { in_a_row, in_cycle };
 
   void start_cycle(const SmoothingState<dim>& state) {
-    std::vector<double> sorted = state.cell_quality;
-    const auto position =
-        std::min(static_cast<std::size_t>(fraction_ * static_cast<double>(sorted.size())),
-                 sorted.size() - 1);
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(position),
-                     sorted.end());
-    threshold_ = sorted[position];
+    const Topology& topology = state.mesh.topology();
+    const std::size_t n =
+        topology.part() ? topology.part()->n_cells_of_whole() : topology.n_cells();
+    const auto position = static_cast<std::size_t>(fraction_ * static_cast<double>(n));
+    threshold_ = order_statistic(topology, state.cell_quality, std::min(position, n - 1));
     n_without_gain_ = 0;
     best_at_start_ = best_;
   }
