@@ -9,6 +9,7 @@
 #include <set>
 #include <thread>
 
+#include "smoothing/getme/independent_cells.h"
 #include "smoothing/getme/min_tree.h"
 #include "smoothing/loop/best_mesh.h"
 #include "smoothing/loop/catalogue.h"
@@ -225,6 +226,12 @@ TEST(MinTree, PicksLikeASortedSet) {
     tree.build(keys);
     for (int step = 0; step < 5000; ++step) {
       ASSERT_EQ(tree.top(), oracle.begin()->second) << n << ' ' << step;
+      if (step % 50 == 0) {
+        std::vector<std::uint32_t> lowest;
+        for (const auto& [key, number] : oracle)
+          if (lowest.size() < 20 && key != MinTree::never) lowest.push_back(number);
+        ASSERT_EQ(tree.lowest(20), lowest) << n << ' ' << step;
+      }
       // Sometimes changes the top itself, as the sequential method does.
       const auto at_random = static_cast<std::uint32_t>(0.5 * (random() + 1.0) * n);
       const std::uint32_t number = step % 2 ? tree.top() : at_random;
@@ -244,6 +251,37 @@ TEST(MinTree, IsEmptyWithoutFiniteKeys) {
   EXPECT_TRUE(tree.empty());
   tree.update(1, 3.0);
   EXPECT_FALSE(tree.empty());
+}
+
+/// A row of unit squares; square k has the nodes k and k + 1 below, and those above.
+TEST(IndependentCells, HaveNoCellInCommon) {
+  constexpr NodeIndex n = 9;
+  CompressedRows<NodeIndex> cells;
+  for (NodeIndex k = 0; k < n; ++k)
+    cells.append(std::array<NodeIndex, 4>{k, k + 1, n + k + 2, n + k + 1});
+  const Topology row(2, 2 * (n + 1), cells);
+  const auto chosen = [&](std::vector<double> keys, std::size_t n_lowest) {
+    MinTree tree;
+    tree.build(std::move(keys));
+    IndependentCells independent;
+    independent.prepare(row);
+    const auto candidates = lowest_cells(WholeMesh(row), tree, n_lowest);
+    std::vector<CandidateNode> nodes;
+    for (std::uint32_t place = 0; place < candidates.size(); ++place)
+      for (const NodeIndex node : row.cell_nodes(candidates[place].cell))
+        nodes.push_back({place, node, -static_cast<double>(place)});
+    std::vector<GlobalIndex> result;
+    for (const std::uint32_t place : independent.choose(candidates, nodes))
+      result.push_back(candidates[place].cell);
+    return result;
+  };
+  // Square k moves nodes of the squares k - 1 to k + 1: others must be three squares away.
+  EXPECT_THAT(chosen({5, 6, 1, 7, 8, 3, 9, 2, 4}, 9), testing::ElementsAre(2, 7));
+  EXPECT_THAT(chosen({5, 6, 1, 7, 8, 2, 9, 3, 4}, 9), testing::ElementsAre(2, 5, 8));
+  EXPECT_THAT(chosen({5, 6, 1, 7, 8, 2, 9, 3, 4}, 2), testing::ElementsAre(2, 5));
+  // Of equal keys, the one with the lower second key comes first: here that with the higher number.
+  EXPECT_THAT(chosen({9, 9, 1, 1, 9, 9, 9, 9, 9}, 2), testing::ElementsAre(3));
+  EXPECT_THAT(chosen({MinTree::never, 2, 9, 9, 9, 9, 9, 9, 9}, 1), testing::ElementsAre(1));
 }
 
 TEST(InvalidNodeReset, ResetsNodesUntilAllCellsAreValid) {
