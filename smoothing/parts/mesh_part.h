@@ -38,7 +38,8 @@ class MeshPart {
   /// Overwrites the values of copied nodes by those of their owners. values: n for each node of the
   /// part, one node after the other.
   virtual void update(std::span<double> values, std::size_t n) const = 0;
-  /// Replaces the value of each cell by the sum over all its copies, in any order. values: one for each cell of the part.
+  /// Replaces the value of each cell by the sum over all its copies, in any order. values: one for
+  /// each cell of the part.
   virtual void sum_copies_of_cells(std::span<double> values) const = 0;
   /// Replace each number by its sum, its smallest or its largest value over all ranks.
   virtual void sum(std::span<std::int64_t> values) const = 0;
