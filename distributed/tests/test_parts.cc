@@ -107,15 +107,13 @@ Method<dim> method_of(const std::string& name, const char* at_once = "0") {
     method.stages.push_back(std::make_unique<Leaper<dim>>());
   else
     method = make_method<dim>(name);
-  if (name == "getme-sequential") {
-    method.set("at_once", at_once);
-    method.set("cycle", "40");
-  }
-  if (name == "getme-sequential" || name == "getme-adaptive" ||
-      name == "getme-qgamma")  // each step exchanges much
+  if (name == "getme-sequential") method.set("at_once", at_once);
+  if (name.starts_with("getme") && name != "getme-simultaneous")  // each step exchanges much
     for (const auto& parameter : method.parameters())
       if (parameter.name.ends_with("max_cycles") || parameter.name.ends_with("max_iterations"))
         method.set(parameter.name, "2");
+      else if (parameter.name.ends_with("cycle"))
+        method.set(parameter.name, "5");
   method.floor = 1;
   return method;
 }
@@ -174,7 +172,7 @@ void expect_same_for_all_ranks(const Mesh<dim>& mesh, const std::string& what,
     if (name == "laplace" || name == "weighted-laplace" || name == "getme-qgamma")
       continue;  // one by one otherwise
     Mesh<dim> whole = mesh;
-    auto method = method_of<dim>(name, "40");
+    auto method = method_of<dim>(name, "10");
     smooth(whole, method);
     const double bound = name == "getme-sequential"      ? 0.0
                          : name == "global-optimization" ? 1e-6

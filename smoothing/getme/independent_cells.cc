@@ -11,14 +11,13 @@ namespace {
 /// Candidates whose neighbourhoods have a cell in common.
 struct Neighbours {
   std::uint32_t first, second;
-
-  auto operator<=>(const Neighbours&) const = default;
 };
 
 /// Finds candidates at the same cells.
 class Meetings {
  public:
-  explicit Meetings(std::vector<std::uint32_t>& last_at) : last_at_(last_at) {}
+  Meetings(std::vector<std::uint32_t>& last_at, std::size_t n_candidates)
+      : last_at_(last_at), n_candidates_(n_candidates), met_(n_candidates * n_candidates, 0) {}
   ~Meetings() {
     for (const Visit& visit : visits_) last_at_[visit.cell] = 0;
   }
@@ -30,14 +29,16 @@ class Meetings {
     const std::uint32_t last = last_at_[cell];
     if (last != 0 && visits_[last - 1].candidate == candidate) return;
     for (std::uint32_t v = last; v != 0; v = visits_[v - 1].before)
-      found_.push_back({visits_[v - 1].candidate, candidate});
+      met_[n_candidates_ * visits_[v - 1].candidate + candidate] = 1;
     visits_.push_back({cell, candidate, last});
     last_at_[cell] = static_cast<std::uint32_t>(visits_.size());
   }
-  std::vector<Neighbours> take() {
-    std::sort(found_.begin(), found_.end());
-    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
-    return std::move(found_);
+  std::vector<Neighbours> all() const {
+    std::vector<Neighbours> result;
+    for (std::uint32_t a = 0; a < n_candidates_; ++a)
+      for (std::uint32_t b = 0; b < n_candidates_; ++b)
+        if (met_[n_candidates_ * a + b]) result.push_back({a, b});
+    return result;
   }
 
  private:
@@ -48,7 +49,8 @@ class Meetings {
   };
   std::vector<std::uint32_t>& last_at_;
   std::vector<Visit> visits_;  ///< their numbers begin with 1
-  std::vector<Neighbours> found_;
+  std::size_t n_candidates_;
+  std::vector<std::uint8_t> met_;  ///< of each pair
 };
 
 }  // namespace
@@ -74,13 +76,13 @@ std::vector<std::uint32_t> IndependentCells::choose(std::span<const KeyedCell> c
   std::vector<double> second_keys(candidates.size());
   std::vector<std::vector<std::uint32_t>> neighbours(candidates.size());
   {
-    Meetings meetings(last_visits_);
+    Meetings meetings(last_visits_, candidates.size());
     for (const auto& [place, number, second_key] : nodes) {
       second_keys[place] = second_key;
       if (const auto node = whole.find_node(number))
         for (const CellIndex c : topology_->node_cells(*node)) meetings.add(c, place);
     }
-    for (const auto& [a, b] : whole.gather(meetings.take())) {
+    for (const auto& [a, b] : whole.gather(meetings.all())) {
       neighbours[a].push_back(b);
       neighbours[b].push_back(a);
     }

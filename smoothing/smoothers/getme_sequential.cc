@@ -67,8 +67,8 @@ struct ByMeanRatioAndWarpage {
 /// Section 4.3, Fig. 4.3). A step is a cycle of such transformations; the lowest quality is
 /// evaluated after it. Assessment: the quality of an element.
 ///
-/// In a mesh in parts, or if asked, a cycle consists of rounds: the elements of the lowest
-/// corrected quality that have separate neighbourhoods are transformed at the same time.
+/// In a mesh in parts, or if asked, each transformation of a cycle becomes a round: the elements of
+/// the lowest corrected quality that have separate neighbourhoods are transformed at the same time.
 template <int dim, int spacedim, class Assessment>
 class GetmeSequential final : public Smoother<dim, spacedim> {
  public:
@@ -84,10 +84,10 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
         {"penalty_success", "added when the transformation is kept; penalties never fall below 0",
          &penalty_success_, -1.0, 0.0},
         {"at_once",
-         "most elements of a round; 1: one element after the other, as in the thesis; 0: a cycle "
-         "in "
-         "a mesh in parts, otherwise 1",
-         &at_once_, 0.0, 1e6},
+         "most elements that are transformed at the same time, which counts once in a cycle; 1: "
+         "one "
+         "element after the other, as in the thesis; 0: 10 in a mesh in parts, otherwise 1",
+         &at_once_, 0.0, 1e3},
         {"cycle", "transformations between evaluations of the lowest quality (Section 6.2)",
          &cycle_, 1.0, 1e9},
         {"patience", "stop after this many evaluations without improving the lowest quality",
@@ -154,17 +154,14 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
 
   StepReport step(SmoothingState<dim, spacedim>& state) override {
     const Topology& topology = state.mesh.topology();
-    const auto at_once = static_cast<std::size_t>(at_once_ > 0      ? at_once_
-                                                  : topology.part() ? cycle_
-                                                                    : 1);
-    const auto cycle = static_cast<std::size_t>(cycle_);
+    const int chosen = at_once_ > 0 ? at_once_ : topology.part() ? 10 : 1;
+    const auto at_once = static_cast<std::size_t>(chosen);
     const bool makes_rounds = topology.part() != nullptr || at_once > 1;
     StepReport report{.n_counted = 0};
     moved_in_cycle_.clear();
-    while (report.n_counted < cycle && !is_perfect()) {
+    for (int round = 0; round < cycle_ && !is_perfect(); ++round) {
       const auto [n, n_undone] =
-          makes_rounds ? transform_round(state, std::min(cycle - report.n_counted, at_once))
-                       : transform_worst(state);
+          makes_rounds ? transform_round(state, at_once) : transform_worst(state);
       if (n == 0) break;
       report.n_counted += n;
       report.n_reset += n_undone;
