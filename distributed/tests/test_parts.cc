@@ -108,12 +108,13 @@ Method<dim> method_of(const std::string& name, const char* at_once = "0") {
   else
     method = make_method<dim>(name);
   if (name == "getme-sequential") method.set("at_once", at_once);
-  if (name.starts_with("getme") && name != "getme-simultaneous")  // each step exchanges much
-    for (const auto& parameter : method.parameters())
+  if (name.starts_with("getme") && name != "getme-simultaneous") {  // each step exchanges much
+    for (const auto& parameter : method.parameters()) {
       if (parameter.name.ends_with("max_cycles") || parameter.name.ends_with("max_iterations"))
         method.set(parameter.name, "2");
-      else if (parameter.name.ends_with("cycle"))
-        method.set(parameter.name, "5");
+      if (parameter.name.ends_with("cycle")) method.set(parameter.name, "5");
+    }
+  }
   method.floor = 1;
   return method;
 }
