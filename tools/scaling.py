@@ -33,6 +33,15 @@ process that needs most. Its limit: 1.3 times the memory of one process, divided
 | cells | processes | threads each | read, s | distribute, s | iteration, ns a cell | GiB a process | limit, GiB |
 |--:|--:|--:|--:|--:|--:|--:|--:|
 """
+METHODS = """
+## Methods
+
+{cells:,.0f} cells, one thread for each process, medians of {repetitions} runs in turn. Seconds are those of the method's loop. Each method gives
+the same mesh on one and on two processes.
+
+| method | 1 process, s | 2 processes, s | ratio | q_min | q_mean |
+|:--|--:|--:|--:|--:|--:|
+"""
 WEAK = """
 ## Exchange
 
@@ -59,12 +68,14 @@ network: its latency, for {neighbours:.0f} neighbours with three messages each a
 REPETITIONS = 3
 EDGE = 119  # cubes along an edge, with six tetrahedra each: 1.0e7 cells
 HUGE_EDGE = 322  # 2.0e8 cells
+OTHER_METHODS = ("laplace", "weighted-laplace", "smart-laplace", "getme-simultaneous", "getme", "getme-adaptive", "global-optimization")
+SMALLER_EDGE = 55  # of the boxes for these: 1.0e6 cells
 CASES = ((1, 1), (1, 2), (2, 1), (4, 1), (8, 1))  # processes, threads of each
 CELLS_A_PROCESS = 20000
 PROCESSES = (1, 2, 4, 8, 16, 32, 64)
 NUMBERS = re.compile(
     r"and (?P<cells>\d+) cells on .* has (?P<share>[\d.e+]+) times .* at most (?P<copies>\d+) copied nodes, of (?P<neighbours>\d+) "
-    r".*: (?P<iterations>\d+) iterations in (?P<loop>[\d.e+-]+) s "
+    r".*after +(?P<q_min>[\d.]+) +[\d.]+ +(?P<q_mean>[\d.]+) .*: (?P<iterations>\d+)[\d/]* iterations in (?P<loop>[\d.e+-]+) s "
     r".*seconds: (?P<read>[\d.e+-]+) to read, (?P<distribute>[\d.e+-]+) to distribute, .* at most (?P<gib>[\d.e+-]+) GiB", re.DOTALL)
 
 
@@ -83,14 +94,14 @@ class Boxes:
         self.kept = program.parent.parent / "scaling.json"
         self.known = json.loads(self.kept.read_text(encoding="utf-8")) if self.kept.exists() else {}
 
-    def smoothed(self, edge, pieces, processes, threads, number=0):
+    def smoothed(self, edge, pieces, processes, threads, number=0, method="getme-simultaneous"):
         """Smooths a box of edge^3 cubes; returns the numbers that the program prints, by name."""
-        key = f"{self.commit} {edge} {pieces} {processes} {threads} {number}"
+        key = f"{self.commit} {edge} {pieces} {processes} {threads} {number} {method}"
         if key not in self.known:
             if self.edge != edge:
                 run(self.program, 2, "generate", "box", "--cells", f"{edge},{edge},{edge}", "--displacement", 0.15, "--pieces", pieces, "-o", self.box)
                 self.edge = edge
-            text = run(self.program, processes, "smooth", self.box, "-m", "getme-simultaneous", "--threads", threads, "-o",
+            text = run(self.program, processes, "smooth", self.box, "-m", method, "--threads", threads, "-o",
                        self.box.with_name("smoothed.pvtu"))
             self.known[key] = {name: float(value) for name, value in NUMBERS.search(text).groupdict().items()}
             self.kept.write_text(json.dumps(self.known), encoding="utf-8")
@@ -124,6 +135,7 @@ def pages(boxes, is_huge):
         yield time_row(runs[case], *case, whole_gib)
     if is_huge:
         yield time_row([boxes.smoothed(HUGE_EDGE, 64, 2, 1)], 2, 1, None)
+    yield from methods(boxes)
     yield WEAK.format(cells=CELLS_A_PROCESS)
     found = None
     for processes in PROCESSES:
@@ -132,6 +144,20 @@ def pages(boxes, is_huge):
         yield (f"| {processes} | {found['cells']:,.0f} | {found['share']:.2f} | {found['copies']:,.0f} | {found['neighbours']:.0f} | "
                f"{24 * found['copies'] / 1000:.0f} |\n")
     yield from model({case: runs[case] for case in CASES if case[1] == 1}, PROCESSES[-1], found)
+
+
+def methods(boxes):
+    """Yields the section on all methods that work in parts."""
+    cases = [(method, processes) for method in OTHER_METHODS for processes in (1, 2)]
+    runs = {case: [] for case in cases}
+    for number in range(REPETITIONS):
+        for method, processes in cases:
+            runs[method, processes].append(boxes.smoothed(SMALLER_EDGE, 4, processes, 1, number, method))
+    yield METHODS.format(cells=runs[cases[0]][0]["cells"], repetitions=REPETITIONS)
+    for method in OTHER_METHODS:
+        one, two = (median(run["loop"] for run in runs[method, processes]) for processes in (1, 2))
+        first = runs[method, 1][0]
+        yield f"| {method} | {one:.2f} | {two:.2f} | {one / two:.2f} | {first['q_min']:.4f} | {first['q_mean']:.4f} |\n"
 
 
 def model(runs, processes, found):

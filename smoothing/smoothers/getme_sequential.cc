@@ -197,7 +197,8 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
       before.push_back(std::exchange(mesh.coordinates()[node], position));
     }
   };
-  struct NewPosition {
+  using NewPositions = std::vector<std::pair<NodeIndex, Point<spacedim>>>;
+  struct SentPosition {
     CandidateNode node;
     std::array<double, std::size_t{spacedim}> x;
   };
@@ -220,9 +221,8 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     const CellIndex worst = worst_cell(state);
     Trial& trial = trials_.front();
     trial.clear();
-    transform(state.mesh, worst, [&](NodeIndex node, const Point<spacedim>& position) {
-      trial.move(state.mesh, node, position);
-    });
+    transform(state.mesh, worst, positions_);
+    for (const auto& [node, position] : positions_) trial.move(state.mesh, node, position);
     find_touched(state.mesh.topology(), ++n_transformations_, trial);
     const bool keeps = is_valid(state.mesh, trial);
     accept_or_undo(state, trial, keeps);
@@ -237,9 +237,9 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   Counts transform_round(SmoothingState<dim, spacedim>& state, std::size_t n) {
     const WholeMesh whole(state.mesh.topology());
     const auto candidates = lowest_cells(whole, by_corrected_quality_, n);
-    const auto positions = whole.gather(new_positions(state, candidates));
+    const auto positions = whole.gather(positions_to_send(state, candidates));
     std::vector<CandidateNode> nodes;
-    for (const NewPosition& position : positions) nodes.push_back(position.node);
+    for (const SentPosition& position : positions) nodes.push_back(position.node);
     const auto chosen = independent_.choose(candidates, nodes);
 
     trials_.resize(std::max(trials_.size(), candidates.size()));
@@ -274,21 +274,23 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   }
 
   /// Returns where the free nodes of the candidates that this process owns would move.
-  std::vector<NewPosition> new_positions(const SmoothingState<dim, spacedim>& state,
-                                         std::span<const KeyedCell> candidates) {
+  std::vector<SentPosition> positions_to_send(const SmoothingState<dim, spacedim>& state,
+                                              std::span<const KeyedCell> candidates) {
     const WholeMesh whole(state.mesh.topology());
-    std::vector<std::vector<NewPosition>> of_each(candidates.size());
+    std::vector<std::vector<SentPosition>> of_each(candidates.size());
     parallel_for(candidates.size(), [&](std::size_t place) {
       const auto cell = whole.find_cell(candidates[place].cell);
       if (!cell || !whole.owns_cell(*cell)) return;
-      transform(state.mesh, *cell, [&](NodeIndex node, const Point<spacedim>& position) {
-        NewPosition& added = of_each[place].emplace_back();
-        added.node = {static_cast<std::uint32_t>(place), whole.node_number(node),
-                      state.cell_quality[*cell]};
-        std::copy_n(position.data(), spacedim, added.x.begin());
-      });
+      NewPositions new_positions;
+      transform(state.mesh, *cell, new_positions);
+      for (const auto& [node, position] : new_positions) {
+        SentPosition& sent = of_each[place].emplace_back();
+        sent.node = {static_cast<std::uint32_t>(place), whole.node_number(node),
+                     state.cell_quality[*cell]};
+        std::copy_n(position.data(), spacedim, sent.x.begin());
+      }
     });
-    std::vector<NewPosition> all;
+    std::vector<SentPosition> all;
     for (const auto& some : of_each) all.insert(all.end(), some.begin(), some.end());
     return all;
   }
@@ -315,10 +317,10 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     return neighbour_sizes_.of(nodes);
   }
 
-  /// Calls move(node, new position) for the free nodes of a cell.
-  template <class Move>
+  /// Finds the new positions of the free nodes of a cell.
   [[gnu::flatten]] void transform(const Mesh<dim, spacedim>& mesh, CellIndex cell,
-                                  const Move& move) {
+                                  NewPositions& positions) {
+    positions.clear();
     const auto nodes = mesh.topology().cell_nodes(cell);
     with_target_corners(mesh, cell, coordinates_at(mesh.coordinates().data()), [&](auto corners) {
       with_result(corners, [&](auto result) {
@@ -327,7 +329,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
         map_to_target(mesh, cell, result);
         for (std::size_t k = 0; k < nodes.size(); ++k)
           if (!mesh.topology().is_fixed(nodes[k]))
-            move(nodes[k], allowed_position(mesh, nodes[k], point_of(result[k])));
+            positions.emplace_back(nodes[k], allowed_position(mesh, nodes[k], point_of(result[k])));
       });
     });
   }
@@ -408,6 +410,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   ExactSum quality_gain_;                 ///< of the cells that this process owns
   IndependentCells independent_;
   std::vector<Trial> trials_{1};
+  NewPositions positions_;
   std::vector<NodeIndex> moved_in_cycle_;
   std::vector<std::uint32_t>
       touched_in_;  ///< number of the transformation that last touched a cell

@@ -155,9 +155,9 @@ void send_plan(const LauncherPlan& plan, int descriptor) {
 
 void list_studies() {
   for (const auto& file : study_files(built_in_studies())) {
-    const ReadyStudy study = read_any_study(file);
-    std::printf("%-16s %s\n", study.header.name.c_str(), study.header.title.c_str());
-    if (!study.header.note.empty()) std::printf("%-16s   %s\n", "", study.header.note.c_str());
+    const StudySummary study = read_summary(file);
+    std::printf("%-16s %s\n", study.name.c_str(), study.title.c_str());
+    if (!study.note.empty()) std::printf("%-16s   %s\n", "", study.note.c_str());
   }
 }
 

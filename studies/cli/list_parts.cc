@@ -18,7 +18,7 @@ void smoothfem_list_studies(const std::string& folder) {
   std::printf("STUDIES (study NAME, or FILE for your own)\n\n");
   const std::filesystem::path given(folder);
   for (const auto& file : study_files(given.empty() ? built_in_studies() : given))
-    std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_any_study(file).header.title.c_str(),
+    std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_summary(file).title.c_str(),
                 file.c_str());
 }
 

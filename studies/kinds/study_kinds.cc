@@ -34,6 +34,15 @@ ReadyStudy read_any_study(const std::filesystem::path& file, const std::string& 
   return kind.read(file, scale);
 }
 
+StudySummary read_summary(const std::filesystem::path& file) {
+  dealii::ParameterHandler p;
+  p.declare_entry("title", "");
+  p.declare_entry("note", "");
+  parse_study(p, StudyText(file), true);
+  const std::string name = file.stem().string();
+  return {name, p.get("title").empty() ? name : p.get("title"), p.get("note")};
+}
+
 ReadyStudy table_study(const StudyHeader& header, std::vector<StudyTable> tables) {
   return {.header = header,
           .run = [header, tables = std::move(tables)](const StudyOptions& options) {

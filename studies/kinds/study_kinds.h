@@ -45,4 +45,11 @@ ReadyStudy table_study(const StudyHeader& header, std::vector<StudyTable> tables
 /// Reads a study file of any kind. Throws InputError as read_study does.
 ReadyStudy read_any_study(const std::filesystem::path& file, const std::string& scale = {});
 
+/// What lists of studies say of a study file.
+struct StudySummary {
+  std::string name, title, note;
+};
+/// Reads that alone, which takes a hundredth of the time. Throws InputError.
+StudySummary read_summary(const std::filesystem::path& file);
+
 }  // namespace smoothfem
