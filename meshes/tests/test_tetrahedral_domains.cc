@@ -89,9 +89,10 @@ TEST(Piston, IsAPistonAtEveryScale) {
 
 TEST(TetrahedralDomains, AreTheSameEveryTime) {
   const DomainParameters coarse{.edge_scale = test::is_long() ? 4.0 : 6.0};
-  for (const char* domain : {"axle", "piston"})
-    expect_same_mesh(mesh_of_domain<3>(domain, coarse), mesh_of_domain<3>(domain, coarse));
-  if (!test::is_long()) return;  // these have one size only
+  expect_same_mesh(mesh_of_domain<3>("piston", coarse), mesh_of_domain<3>("piston", coarse));
+  if (!test::is_long()) return;
+  expect_same_mesh(mesh_of_domain<3>("axle", coarse), mesh_of_domain<3>("axle", coarse));
+  // These have one size only.
   for (const char* domain : {"sphere", "prosthesis"})
     expect_same_mesh(mesh_of_domain<3>(domain), mesh_of_domain<3>(domain));
 }

@@ -27,7 +27,7 @@ TEST_F(Resume, VolumeStudiesKilledAtRandomMomentsEndWithTheSameRows) {
 }
 
 TEST_F(EditedStudies, EndWithTheRowsOfAFreshRun) {
-  edit_and_compare(8, 1);
+  edit_and_compare(4, 1);
 }
 
 TEST_F(Resume, DamagedKeptResultsAreRefused) {
