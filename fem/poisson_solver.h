@@ -63,20 +63,22 @@ struct DiscreteSolution {
 template <int dim>
 class PoissonSolver {
  public:
-  /// mesh: any mesh of the topology, on the root; null elsewhere. Throws InputError as
-  /// make_finite_element_space does.
+  /// mesh: any mesh of the topology, on the root; null elsewhere. Or each rank's part of a mesh
+  /// that no rank has as a whole (smoothing/parts/mesh_part.h): ranks then share equations as they
+  /// share nodes. Throws InputError as make_finite_element_space does.
   PoissonSolver(const Mesh<dim>* mesh, const PoissonOptions& options, const Ranks& ranks = {});
   PoissonSolver(const PoissonSolver& other);
   ~PoissonSolver();
 
   /// Solves on a mesh. coordinates: on the root, of all nodes of a mesh of the topology with valid
-  /// cells. is_result: true for an initial or resulting mesh of a study, with all that is recorded
-  /// for it. Throws CellError for curved cells that are folded inside.
+  /// cells; in parts, of all nodes of each rank's part. is_result: true for an initial or resulting
+  /// mesh of a study, with all that is recorded for it. Throws CellError for curved cells that are
+  /// folded inside.
   SolutionRecord solve(std::span<const Point<dim>> coordinates,
                        const ManufacturedSolution<dim>& solution, bool is_result = true);
 
   /// Returns, on the root, |u - u_h| of the last solve at each mesh node; 0 at nodes where
-  /// node_values is NaN. Collective.
+  /// node_values is NaN. In parts, on each rank at the nodes of its part. Collective.
   std::vector<double> nodal_errors() const;
 
   /// Returns the last solution. mesh, solution: those of the last solve. For one process only.

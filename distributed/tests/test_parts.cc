@@ -15,6 +15,7 @@
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
 #include "distributed/split.h"
+#include "distributed/tests/scattered.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/smooth.h"
@@ -48,26 +49,6 @@ Mesh<dim> two_materials(const Mesh<dim>& mesh, double distortion, std::uint64_t 
                                                     reasons, labels),
                    mesh.copied_coordinates());
   test::distort(result, distortion, seed);
-  return result;
-}
-
-/// The cells of a mesh, spread over the ranks without order.
-template <int dim>
-ScatteredMesh<dim> scattered(const Ranks& ranks, const Mesh<dim>& mesh) {
-  ScatteredMesh<dim> result{.n_cells = mesh.n_cells(),
-                            .nodes = NodeDirectory<NodeEntry<dim>>(ranks, mesh.n_nodes())};
-  const auto n_ranks = static_cast<std::size_t>(ranks.size());
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-    if ((c * 7 + c / 3) % n_ranks == static_cast<std::size_t>(ranks.rank()))
-      result.cells.append(c, mesh.topology().labels().cell_tags[c], mesh.topology().cell_nodes(c));
-  std::vector<GlobalIndex> numbers;
-  std::vector<NodeEntry<dim>> entries;
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
-    numbers.push_back(i);
-    entries.push_back(node_entry<dim>(mesh.coordinates()[i], 0));
-  }
-  result.nodes.give(numbers, entries,
-                    [](NodeEntry<dim>& kept, const NodeEntry<dim>& node, int) { kept.x = node.x; });
   return result;
 }
 

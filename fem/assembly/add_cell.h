@@ -44,11 +44,13 @@ void add_cell(const FiniteElementSpace<dim>& space, const ElementCells& group, s
   if (!space.ties.empty() &&
       std::any_of(dofs, dofs + n_dofs, [&](std::uint32_t dof) { return space.is_tied(dof); }))
     return add_tied_cell<dim, n_dofs>(space, dofs, integrals, lane, system);
-  const std::uint32_t* entries = &group.entries[cell * n_dofs * n_dofs];
+  const std::uint32_t* entries =
+      group.entries.empty() ? nullptr : &group.entries[cell * n_dofs * n_dofs];
   double* values = system.matrix.valuePtr();
   const auto add = [&](std::size_t i, std::size_t j, double stiffness) {
     if (dofs[i] >= space.n_own) return;
-    const std::uint32_t entry = entries[i * n_dofs + j];
+    const std::uint32_t entry =
+        entries != nullptr ? entries[i * n_dofs + j] : space.entry(dofs[i], dofs[j]);
     if (entry != FiniteElementSpace<dim>::absent)
       values[entry] += stiffness;
     else

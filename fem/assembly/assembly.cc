@@ -231,7 +231,7 @@ void require_unfolded(const Ranks& ranks, const PoissonSystem& system) {
 
 template <int dim>
 PoissonSystem make_system(const FiniteElementSpace<dim>& space) {
-  return {.matrix = space.pattern,
+  return {.matrix = space.pattern.zeros(),
           .right_hand_side = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(space.n_own)),
           .exact = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(space.n_local))};
 }

@@ -10,8 +10,6 @@ namespace smoothfem {
 
 namespace {
 
-constexpr std::uint32_t padding = UINT32_MAX;
-
 /// Returns the rows in their order, but sorted by length within windows. Slices then have similar
 /// lengths and still keep neighbours together.
 std::vector<std::uint32_t> rows_by_length(const SparseMatrix& matrix) {
@@ -41,6 +39,8 @@ SlicedMatrix::SlicedMatrix(const SparseMatrix& matrix, const Ranks& ranks, const
       offsets_{0} {
   const int* starts = matrix.outerIndexPtr();
   const int* columns = matrix.innerIndexPtr();
+  offsets_.reserve(rows_.size() / n_lanes + 1);
+  columns_.reserve(static_cast<std::size_t>(matrix.nonZeros()));
   for (std::size_t slice = 0; slice < rows_.size(); slice += n_lanes) {
     int longest = 0;
     for (std::size_t l = 0; l < n_lanes; ++l)
@@ -50,7 +50,6 @@ SlicedMatrix::SlicedMatrix(const SparseMatrix& matrix, const Ranks& ranks, const
         const int entry = starts[rows_[slice + l]] + k;
         const bool inside = entry < starts[rows_[slice + l] + 1];
         columns_.push_back(inside ? static_cast<std::uint32_t>(columns[entry]) : 0);
-        entries_.push_back(inside ? static_cast<std::uint32_t>(entry) : padding);
       }
     offsets_.push_back(columns_.size());
   }
@@ -59,9 +58,15 @@ SlicedMatrix::SlicedMatrix(const SparseMatrix& matrix, const Ranks& ranks, const
 }
 
 void SlicedMatrix::set_values(const SparseMatrix& matrix) {
+  const int* starts = matrix.outerIndexPtr();
   const double* values = matrix.valuePtr();
-  for (std::size_t p = 0; p < entries_.size(); ++p)
-    values_[p] = entries_[p] == padding ? 0.0 : values[entries_[p]];
+  for (std::size_t slice = 0; slice + 1 < offsets_.size(); ++slice)
+    for (std::size_t l = 0; l < n_lanes; ++l) {
+      const int first = starts[rows_[slice * n_lanes + l]],
+                size = starts[rows_[slice * n_lanes + l] + 1] - first;
+      for (std::size_t p = offsets_[slice] + l, k = 0; p < offsets_[slice + 1]; p += n_lanes, ++k)
+        values_[p] = static_cast<int>(k) < size ? values[static_cast<std::size_t>(first) + k] : 0.0;
+    }
   diagonal_ = matrix.diagonal();
 }
 

@@ -42,7 +42,6 @@ class SlicedMatrix {
   std::vector<std::uint32_t> rows_;     ///< the rows of each slice; padding repeats the last row
   std::vector<std::size_t> offsets_;    ///< begin of each slice in the arrays below
   std::vector<std::uint32_t> columns_;  ///< lane by lane; padding refers to column 0
-  std::vector<std::uint32_t> entries_;  ///< position of each in the matrix' values, or `padding`
   std::vector<double> values_;          ///< padding is zero
   Eigen::VectorXd diagonal_;
 };

@@ -24,9 +24,9 @@ struct TrilinosMatrix::Trilinos {
   std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> hierarchy;
 
   Trilinos(const Ranks& ranks, std::size_t n_free, std::vector<int> numbers,
-           const SparseMatrix& pattern)
+           const SparsityPattern& pattern)
       : comm(ranks.communicator()),
-        rows(static_cast<int>(n_free), static_cast<int>(pattern.rows()), numbers.data(), 0, comm),
+        rows(static_cast<int>(n_free), static_cast<int>(pattern.n_rows()), numbers.data(), 0, comm),
         columns(-1, static_cast<int>(numbers.size()), numbers.data(), 0, comm),
         matrix(Copy, graph_of(pattern)) {
     matrix.FillComplete(rows, rows);
@@ -34,15 +34,15 @@ struct TrilinosMatrix::Trilinos {
   }
 
  private:
-  Epetra_CrsGraph graph_of(const SparseMatrix& pattern) const {
+  Epetra_CrsGraph graph_of(const SparsityPattern& pattern) const {
     std::vector<int> lengths;
-    lengths.reserve(static_cast<std::size_t>(pattern.rows()));
-    const int* starts = pattern.outerIndexPtr();
-    for (int i = 0; i < pattern.rows(); ++i) lengths.push_back(starts[i + 1] - starts[i]);
+    lengths.reserve(pattern.n_rows());
+    const auto& starts = pattern.starts;
+    for (std::size_t i = 0; i < pattern.n_rows(); ++i) lengths.push_back(starts[i + 1] - starts[i]);
     Epetra_CrsGraph graph(Copy, rows, columns, lengths.data(), true);
-    for (int i = 0; i < pattern.rows(); ++i)
-      graph.InsertMyIndices(i, lengths[static_cast<std::size_t>(i)],
-                            const_cast<int*>(pattern.innerIndexPtr()) + starts[i]);
+    for (std::size_t i = 0; i < pattern.n_rows(); ++i)
+      graph.InsertMyIndices(static_cast<int>(i), lengths[i],
+                            const_cast<int*>(pattern.columns.data()) + starts[i]);
     graph.FillComplete(rows, rows);
     graph.OptimizeStorage();
     return graph;

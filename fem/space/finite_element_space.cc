@@ -2,6 +2,7 @@
 #include "fem/space/finite_element_space.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "fem/space/curved_points.h"
@@ -17,11 +18,16 @@ constexpr auto absent = FiniteElementSpace<2>::absent;
 /// Nodes around each local dof, from any cell that has it; their weights are all equal.
 template <int dim>
 void locate_dofs(FiniteElementSpace<dim>& space) {
+  if (!space.vertex_dof.empty()) {  // dofs are nodes; some may have no cell here
+    std::vector<NodeIndex> node_of(space.n_local);
+    for (NodeIndex node = 0; node < space.vertex_dof.size(); ++node)
+      if (space.vertex_dof[node] != absent) node_of[space.vertex_dof[node]] = node;
+    std::vector<RowOffset> offsets(space.n_local + 1);
+    std::iota(offsets.begin(), offsets.end(), RowOffset{0});
+    space.dof_nodes = {std::move(offsets), std::move(node_of)};
+    return;
+  }
   std::vector<std::vector<NodeIndex>> nodes(space.n_local);
-  // Nodes of dofs are known only if these are numbered by nodes. Then some dofs may have no cell
-  // here.
-  for (NodeIndex node = 0; node < space.vertex_dof.size(); ++node)
-    if (space.vertex_dof[node] != absent) nodes[space.vertex_dof[node]] = {node};
   for (const auto& group : space.groups) {
     const auto& element = group.element;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
@@ -59,34 +65,48 @@ void locate_curved_dofs(FiniteElementSpace<dim>& space) {
     if (points[dof] < space.nodes.size()) space.vertex_dof[points[dof]] = dof;
 }
 
-/// For each of this rank's equations the cells (group, number) that contribute to it.
+/// A cell of a space: its group, and its number there.
+using CellOfGroup = std::pair<std::uint32_t, std::uint32_t>;
+
+/// For each of this rank's equations the cells that contribute to it: the first one of each row,
+/// and those of all rows.
 template <int dim>
-std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> cells_of_rows(
+std::pair<std::vector<std::size_t>, std::vector<CellOfGroup>> cells_of_rows(
     const FiniteElementSpace<dim>& space) {
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> cells(space.n_own);
-  for (std::uint32_t g = 0; g < space.groups.size(); ++g) {
-    const auto& group = space.groups[g];
-    for (std::size_t k = 0; k < group.dofs.size(); ++k)
-      space.for_each_master(group.dofs[k], [&](std::uint32_t dof, double) {
-        const auto cell = static_cast<std::uint32_t>(k / group.element.n_dofs);
-        if (dof < space.n_own) cells[dof].emplace_back(g, cell);
-      });
-  }
-  return cells;
+  const auto for_each_own = [&](const auto& visit) {
+    for (std::uint32_t g = 0; g < space.groups.size(); ++g) {
+      const auto& group = space.groups[g];
+      for (std::size_t k = 0; k < group.dofs.size(); ++k)
+        space.for_each_master(group.dofs[k], [&](std::uint32_t dof, double) {
+          if (dof < space.n_own)
+            visit(dof, CellOfGroup(g, static_cast<std::uint32_t>(k / group.element.n_dofs)));
+        });
+    }
+  };
+  std::vector<std::size_t> ends(space.n_own + 1, 0);
+  for_each_own([&](std::uint32_t dof, const CellOfGroup&) { ++ends[dof + 1]; });
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<CellOfGroup> cells(ends.back());
+  auto next = ends;
+  for_each_own([&](std::uint32_t dof, const CellOfGroup& cell) { cells[next[dof]++] = cell; });
+  return {std::move(ends), std::move(cells)};
 }
 
 template <int dim>
 void build_pattern(FiniteElementSpace<dim>& space) {
-  const auto cells = cells_of_rows(space);
-  std::vector<int> starts{0}, columns;
+  const auto [first, cells] = cells_of_rows(space);
+  auto& [starts, columns, n_columns] = space.pattern;
+  n_columns = space.n_columns;
+  starts.reserve(space.n_own + 1);
   std::vector<std::uint32_t> row;
   for (std::size_t i = 0; i < space.n_own; ++i) {
     row.clear();
-    for (const auto& [g, c] : cells[i]) {
+    for (std::size_t k = first[i]; k < first[i + 1]; ++k) {
+      const auto& [g, c] = cells[k];
       const auto& group = space.groups[g];
       const auto* dofs = &group.dofs[c * group.element.n_dofs];
-      for (std::size_t k = 0; k < group.element.n_dofs; ++k)
-        space.for_each_master(dofs[k], [&](std::uint32_t dof, double) {
+      for (std::size_t j = 0; j < group.element.n_dofs; ++j)
+        space.for_each_master(dofs[j], [&](std::uint32_t dof, double) {
           if (dof < space.n_columns) row.push_back(dof);
         });
     }
@@ -95,10 +115,6 @@ void build_pattern(FiniteElementSpace<dim>& space) {
     columns.insert(columns.end(), row.begin(), row.end());
     starts.push_back(static_cast<int>(columns.size()));
   }
-  const std::vector<double> zeros(columns.size(), 0.0);
-  space.pattern = Eigen::Map<const SparseMatrix>(
-      static_cast<Eigen::Index>(space.n_own), static_cast<Eigen::Index>(space.n_columns),
-      static_cast<Eigen::Index>(columns.size()), starts.data(), columns.data(), zeros.data());
 }
 
 template <int dim>
@@ -115,19 +131,29 @@ void find_entries(FiniteElementSpace<dim>& space) {
 
 }  // namespace
 
+SparseMatrix SparsityPattern::zeros() const {
+  SparseMatrix matrix(static_cast<Eigen::Index>(n_rows()), static_cast<Eigen::Index>(n_columns));
+  matrix.resizeNonZeros(static_cast<Eigen::Index>(columns.size()));
+  std::copy(starts.begin(), starts.end(), matrix.outerIndexPtr());
+  std::copy(columns.begin(), columns.end(), matrix.innerIndexPtr());
+  matrix.coeffs().setZero();
+  return matrix;
+}
+
 template <int dim>
 std::uint32_t FiniteElementSpace<dim>::entry(std::uint32_t row, std::uint32_t column) const {
   if (row >= n_own || column >= n_columns) return absent;
-  const int* starts = pattern.outerIndexPtr();
-  const int* columns = pattern.innerIndexPtr();
-  return static_cast<std::uint32_t>(
-      std::lower_bound(columns + starts[row], columns + starts[row + 1], static_cast<int>(column)) -
-      columns);
+  const int* columns = pattern.columns.data();
+  return static_cast<std::uint32_t>(std::lower_bound(columns + pattern.starts[row],
+                                                     columns + pattern.starts[row + 1],
+                                                     static_cast<int>(column)) -
+                                    columns);
 }
 
 template <int dim>
 std::vector<Point<dim>> FiniteElementSpace<dim>::local_coordinates(
     std::span<const Point<dim>> coordinates) const {
+  if (in_parts) return {coordinates.begin(), coordinates.end()};
   std::vector<Point<dim>> of_ranks;
   of_ranks.reserve(nodes_of_ranks.size());
   for (const NodeIndex node : nodes_of_ranks) of_ranks.push_back(coordinates[node]);
@@ -171,12 +197,12 @@ std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
   std::optional<CurvedPoints<dim>> curved;
   if (space->is_curved || (degree == 2 && is_of_second_order))
     curved.emplace(mesh == nullptr ? nullptr : &mesh->topology(), *space);
-  space->nodes_of_ranks = ranks.gather(space->nodes);
+  if (!space->in_parts) space->nodes_of_ranks = ranks.gather(space->nodes);
   locate_dofs(*space);
   if (space->is_curved) locate_curved_dofs(*space);
   find_natural_facets(natural, space->is_curved ? &*curved : nullptr, *space);
   build_pattern(*space);
-  find_entries(*space);
+  if (!space->in_parts) find_entries(*space);
   return space;
 }
 

@@ -17,6 +17,16 @@ namespace smoothfem {
 /// Compressed rows with ascending columns.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
+/// The places of a sparse matrix' entries: compressed rows with ascending columns.
+struct SparsityPattern {
+  std::vector<int> starts{0}, columns{};
+  std::size_t n_columns = 0;
+
+  std::size_t n_rows() const { return starts.size() - 1; }
+  /// Returns a matrix of zeros in these places.
+  SparseMatrix zeros() const;
+};
+
 /// The cells of one element that a process works on; arrays run over the cells first.
 struct ElementCells {
   ReferenceElement element;
@@ -26,12 +36,12 @@ struct ElementCells {
   /// Local points that determine the cells' mapping, in the order of ReferenceElement::mapping;
   /// empty in straight-sided spaces, where they are the vertices.
   std::vector<NodeIndex> curved_points{};
-  std::vector<std::uint32_t> dofs;  ///< local dofs in the element's order
-  std::vector<std::uint32_t>
-      entries;  ///< n_dofs x n_dofs each: positions in the pattern's values;
-                ///< FiniteElementSpace::absent for rows of other ranks and for boundary dofs
-  std::vector<std::uint32_t> kinds;  ///< of each cell: see cell_kinds
-  std::vector<CellIndex> numbers;    ///< of each cell in the mesh
+  std::vector<std::uint32_t> dofs;     ///< local dofs in the element's order
+  std::vector<std::uint32_t> entries;  ///< n_dofs x n_dofs each: positions in the pattern's values;
+                                       ///< FiniteElementSpace::absent for rows of other ranks and
+                                       ///< for boundary dofs. Empty in parts, where memory is short
+  std::vector<std::uint32_t> kinds;    ///< of each cell: see cell_kinds
+  std::vector<CellIndex> numbers;      ///< of each cell in the mesh
 
   std::size_t n_cells() const { return vertices.size() / element.n_vertices; }
   /// Returns the first point of a cell's mapping; the others follow.
@@ -91,20 +101,22 @@ struct FiniteElementSpace {
   /// face or of a cell.
   /// (In curved cells this is so on the reference cell.)
   CompressedRows<NodeIndex> dof_nodes;
-  std::vector<NodeIndex> nodes;  ///< the mesh's node of each local node
+  /// The mesh's node of each local node; in_parts: that of this rank's part.
+  std::vector<NodeIndex> nodes;
+  bool in_parts = false;  ///< each rank has a part of the mesh (smoothing/parts/mesh_part.h)
   bool is_curved = false;
   std::vector<SubstitutePoint> substitute_points;  ///< each of earlier points
   std::vector<NodeIndex> curved_dof_points;        ///< the local point of each dof; curved spaces
   /// Boundary dofs of a straight-sided space, and the local points on the curve whose values they
   /// have.
   std::vector<std::pair<std::uint32_t, NodeIndex>> boundary_points;
-  std::vector<NodeIndex>
-      nodes_of_ranks;  ///< on the root: `nodes` of all ranks, one after the other
+  /// On the root: `nodes` of all ranks, one after the other. Empty in parts.
+  std::vector<NodeIndex> nodes_of_ranks;
   /// The dof at each local node; absent at unused nodes, at midside nodes of straight spaces, and
   /// at those where elements of this degree have no dof.
   std::vector<std::uint32_t> vertex_dof;
 
-  SparseMatrix pattern;                     ///< of this rank's equations: n_own x n_columns
+  SparsityPattern pattern;                  ///< of this rank's equations: n_own x n_columns
   std::vector<std::size_t> column_numbers;  ///< number of each column among all free dofs
   Halo halo;                                ///< for vectors of n_columns entries
 
@@ -123,7 +135,7 @@ struct FiniteElementSpace {
   std::uint32_t entry(std::uint32_t row, std::uint32_t column) const;
 
   /// Returns the coordinates of the local points. coordinates: of the mesh, needed on the root
-  /// only. Collective.
+  /// only; in parts, of each rank's part. Collective.
   std::vector<Point<dim>> local_coordinates(std::span<const Point<dim>> coordinates) const;
 
   /// Returns the coordinates of the local dofs from those of the local points.
@@ -160,8 +172,9 @@ void require_finite_elements(const Topology& topology, int degree,
 bool has_curved_cells(const Topology& topology, Geometry geometry);
 
 /// Makes a space. mesh: needed on the root only, null elsewhere; its coordinates need not be valid.
-/// degree: 1 or 2. natural_groups: physical tags or names of the facets with natural conditions; on
-/// the rest of the boundary u is given. Collective.
+/// Or each rank's part of a mesh, for degree 1 without natural groups and ties. degree: 1 or 2.
+/// natural_groups: physical tags or names of the facets with natural conditions; on the rest of the
+/// boundary u is given. Collective.
 ///
 /// One process numbers dofs in the order of cells in planar meshes. (CG's iteration counts on badly
 /// conditioned matrices depend on rounding, hence on the order; this one comes closest to the

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "fem/materials/cell_kinds.h"
+#include "smoothing/parts/mesh_part.h"
 
 namespace smoothfem {
 
@@ -186,6 +187,44 @@ Numbers message_of_root(const Topology* topology, const NaturalBoundary& natural
   return ranks.scatter(all, ranks.scatter(lengths, 1).front());
 }
 
+/// Returns the same message for the part of a mesh that a rank already has. Owners of nodes know
+/// the boundary, because they have all cells around these. Collective.
+Numbers message_of_part(const Topology& topology, const Ranks& ranks) {
+  const MeshPart& part = *topology.part();
+  constexpr double boundary = -1.0;
+  std::vector<double> numbers(topology.n_nodes(), boundary);
+  const auto is_own_free = [&](NodeIndex node) {
+    return part.owns_node(node) && !topology.on_boundary()[node];
+  };
+  std::size_t n_free = 0;
+  for (NodeIndex node = 0; node < topology.n_nodes(); ++node) n_free += is_own_free(node);
+  const std::size_t first = ranks.exclusive_scan(n_free);
+  std::size_t next = first;
+  for (NodeIndex node = 0; node < topology.n_nodes(); ++node)
+    if (is_own_free(node)) numbers[node] = static_cast<double>(next++);
+  part.update(numbers, 1);
+
+  const auto n_nodes = static_cast<std::uint32_t>(topology.n_nodes()),
+             n_cells = static_cast<std::uint32_t>(topology.n_cells());
+  Numbers message{static_cast<std::uint32_t>(first), n_nodes, 0, n_cells, 0};
+  message.reserve(message.size() + 3 * (std::size_t{n_nodes} + n_cells) +
+                  topology.cells().n_entries());
+  for (NodeIndex node = 0; node < n_nodes; ++node)
+    message.insert(
+        message.end(),
+        {node, part.owns_node(node) ? own : other,
+         numbers[node] == boundary ? absent : static_cast<std::uint32_t>(numbers[node])});
+  for (const bool is_own : {true, false})
+    for (CellIndex cell = 0; cell < n_cells; ++cell) {
+      if (part.owns_cell(cell) != is_own) continue;
+      message[2] += is_own;
+      const auto nodes = topology.cell_nodes(cell);
+      message.insert(message.end(), {0, cell, static_cast<std::uint32_t>(nodes.size())});
+      message.insert(message.end(), nodes.begin(), nodes.end());
+    }
+  return message;
+}
+
 /// Fills a space from the root's message.
 template <int dim>
 class SpaceFiller {
@@ -228,6 +267,7 @@ class SpaceFiller {
   }
 
   void add_cells(const TensorPoints& tensor_points) {
+    reserve_cells(tensor_points);
     const std::uint32_t* next = of_cells_;
     for (std::size_t c = 0; c < n_cells_; ++c) {
       const std::uint32_t kind = *next++;
@@ -304,6 +344,25 @@ class SpaceFiller {
     space_.n_local = next_tied;
   }
 
+  /// Reserves memory of exactly the size that the cells need.
+  void reserve_cells(const TensorPoints& tensor_points) {
+    std::vector<std::pair<std::size_t, std::size_t>> counts;  // of nodes, and cells with as many
+    const std::uint32_t* next = of_cells_;
+    for (std::size_t c = 0; c < n_cells_; ++c, next += 3 + next[2]) {
+      auto count = counts.begin();
+      while (count != counts.end() && count->first != next[2]) ++count;
+      if (count == counts.end()) count = counts.insert(count, {next[2], 0});
+      ++count->second;
+    }
+    for (const auto& [n_nodes, n] : counts) {
+      auto& group = group_of(element_type(dim, n_nodes), tensor_points);
+      group.kinds.reserve(n);
+      group.numbers.reserve(n);
+      group.dofs.reserve(n * n_nodes);
+      group.vertices.reserve(n * n_nodes);
+    }
+  }
+
   ElementCells& group_of(ElementType type, const TensorPoints& tensor_points) {
     for (auto& group : space_.groups)
       if (group.element.type == type) return group;
@@ -329,7 +388,8 @@ template <int dim>
 void number_nodal_dofs(const Topology* topology, const TensorPoints& tensor_points,
                        const NaturalBoundary& natural, const NodeTies* ties,
                        FiniteElementSpace<dim>& space) {
-  const Numbers message = message_of_root(topology, natural, ties, space.ranks);
+  const Numbers message = space.in_parts ? message_of_part(*topology, space.ranks)
+                                         : message_of_root(topology, natural, ties, space.ranks);
   SpaceFiller<dim> filler(message, space);
   filler.number_dofs();
   filler.add_cells(tensor_points);

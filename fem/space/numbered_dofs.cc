@@ -253,10 +253,14 @@ template <int dim>
 NaturalBoundary number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_points,
                             const std::vector<std::string>& natural_groups, const NodeTies* ties,
                             FiniteElementSpace<dim>& space) {
-  require_on_all_ranks<dim>(mesh == nullptr ? nullptr : &mesh->topology(), space.degree,
-                            natural_groups, space.ranks);
-  NaturalBoundary natural(mesh == nullptr ? nullptr : &mesh->topology(), natural_groups,
-                          space.ranks);
+  const Topology* const topology = mesh == nullptr ? nullptr : &mesh->topology();
+  space.in_parts = topology != nullptr && topology->part() != nullptr;
+  if (space.in_parts && (space.degree > 1 || !natural_groups.empty() || ties != nullptr))
+    throw InputError(
+        "finite elements on a mesh in parts have degree 1, and u is given on the whole boundary: "
+        "for all others use one process that has the whole mesh");
+  require_on_all_ranks<dim>(topology, space.degree, natural_groups, space.ranks);
+  NaturalBoundary natural(topology, natural_groups, space.ranks);
   bool has_ties = ties != nullptr && !ties->empty();
   space.ranks.broadcast(has_ties);
   if (has_ties && space.degree > 1)
@@ -267,9 +271,8 @@ NaturalBoundary number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_po
     throw InputError(
         "curved cells have no constraints for hanging nodes and periodic partners: write 'set "
         "geometry = straight'");
-  if (has_ties || !is_for_deal_ii(mesh, space.ranks)) {
-    number_nodal_dofs(mesh == nullptr ? nullptr : &mesh->topology(), tensor_points, natural, ties,
-                      space);
+  if (space.in_parts || has_ties || !is_for_deal_ii(mesh, space.ranks)) {
+    number_nodal_dofs(topology, tensor_points, natural, ties, space);
     return natural;
   }
   const int n_points = dim == 2 ? tensor_points.quadrilateral : tensor_points.hexahedron;

@@ -8,7 +8,7 @@ namespace smoothfem {
 
 /// Checks a mesh like require_finite_elements, but collectively: only the root sees errors of a
 /// mesh, but all ranks have to stop; otherwise the others would wait forever. topology: null
-/// elsewhere.
+/// elsewhere, or each rank's part.
 template <int dim>
 void require_on_all_ranks(const Topology* topology, int degree,
                           const std::vector<std::string>& natural_groups, const Ranks& ranks);

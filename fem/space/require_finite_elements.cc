@@ -32,7 +32,11 @@ template void require_finite_elements<3>(const Topology&, int, const std::vector
 template <int dim>
 void require_on_all_ranks(const Topology* topology, int degree,
                           const std::vector<std::string>& natural_groups, const Ranks& ranks) {
-  ranks.on_root([&] { require_finite_elements<dim>(*topology, degree, natural_groups); });
+  const auto check = [&] { require_finite_elements<dim>(*topology, degree, natural_groups); };
+  if (topology != nullptr && topology->part() != nullptr)
+    ranks.together(check);
+  else
+    ranks.on_root(check);
 }
 
 template void require_on_all_ranks<2>(const Topology*, int, const std::vector<std::string>&,

@@ -13,6 +13,7 @@
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
 #include "distributed/split.h"
+#include "fem/poisson_solver.h"
 #include "fem/ranks/mpi_session.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
@@ -21,6 +22,7 @@
 #include "smoothing/loop/smooth.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/configured_method.h"
+#include "studies/cli/iteration_log.h"
 #include "studies/cli/piece_commands.h"
 
 namespace smoothfem {
@@ -79,7 +81,6 @@ void refuse_options(const SmoothArguments& a) {
   const std::pair<bool, const char*> given[]{{!a.from.empty(), "--from"},
                                              {!a.to.empty(), "--to"},
                                              {!a.fix_rule.empty(), "--fix"},
-                                             {!a.log.empty(), "--log"},
                                              {!a.series.empty(), "--series"},
                                              {!a.tag_field.empty(), "--tag-field"},
                                              {!a.target.empty(), "--target"},
@@ -128,6 +129,99 @@ void print_quality(const char* when, const MeshQuality& quality) {
               quality.q_mean, quality.n_invalid);
 }
 
+/// Writes a row of the log after each iteration, with finite element numbers of the solution that
+/// the user names.
+template <int dim>
+class PartsLog {
+ public:
+  /// Collective. Throws InputError.
+  PartsLog(const Ranks& ranks, const SmoothArguments& arguments, const Mesh<dim>& part)
+      : ranks_(ranks), arguments_(arguments) {
+    ranks.together([&] {
+      if (ranks.is_root()) log_.emplace(arguments.log, arguments.resume);
+    });
+    if (arguments.solution.empty()) return;
+    PoissonOptions options;
+    ranks.together([&] {
+      solution_ = manufactured_solution<dim>(arguments.solution);
+      reinterpret_cast<decltype(&smoothfem_read_finite_elements)>(function_of_module(
+          study_module, "smoothfem_read_finite_elements"))(arguments.finite_elements, options);
+    });
+    const Clock clock;
+    solver_.emplace(&part, options, ranks);
+    setup_seconds_ = clock.seconds();
+  }
+
+  /// Collective.
+  void observe(const IterationRecord& record, const Mesh<dim>& now) {
+    IterationRow row{.mesh = std::filesystem::path(arguments_.in).stem().string(),
+                     .method = arguments_.method,
+                     .iteration = record,
+                     .degree = solver_ ? 1 : 0,
+                     .solved = {},
+                     .status = record.quality.n_invalid > 0 ? "invalid mesh" : "not solved"};
+    row.iteration.smoothing_seconds = ranks_.max(record.smoothing_seconds);
+    row.iteration.preparation_seconds = ranks_.max(record.preparation_seconds);
+    bool is_known = log_ && log_->has(row);
+    ranks_.broadcast(is_known);
+    // The first row is solved again: other problems have other numbers.
+    const bool is_check = is_known && record.record == 0;
+    if (solver_ && record.quality.n_invalid == 0 && (!is_known || is_check)) {
+      const Clock clock;
+      row.solved = solver_->solve(now.coordinates(), solution_, false);
+      row.status = row.solved->status;
+      seconds_ += clock.seconds();
+      ++n_solved_;
+    }
+    ranks_.together([&] {
+      if (!log_) return;
+      if (is_check && row.solved) require_same(*row.solved);
+      if (is_known)
+        log_->keep();
+      else
+        log_->add(row);
+    });
+  }
+
+  void finish() {
+    ranks_.together([&] {
+      if (log_) log_->finish();
+    });
+  }
+
+  /// Returns a sentence on the solves; empty if there were none. On the root.
+  std::string text() const {
+    if (!solver_) return {};
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "finite elements: %zu solves in %.4g s, after %.4g s of preparation; %zu "
+                  "rows kept\n",
+                  n_solved_, seconds_, setup_seconds_, log_->n_kept());
+    return text;
+  }
+
+ private:
+  /// Throws InputError if the log has other errors of the initial mesh.
+  void require_same(const SolutionRecord& solved) const {
+    constexpr double tolerance = 1e-3;  // CG stops early, and elsewhere on other numbers of ranks
+    for (const auto& [column, error] :
+         {std::pair{"l2_error", solved.l2_error}, {"h1_error", solved.h1_error}}) {
+      const auto earlier = log_->number_of_next(column);
+      if (!earlier || !(std::abs(*earlier - error) <= tolerance * error))
+        throw InputError(arguments_.log + " has rows of another problem: its " + column +
+                         " of the initial mesh differs; leave --resume out, or give another file");
+    }
+  }
+
+  Ranks ranks_;
+  const SmoothArguments& arguments_;
+  std::optional<IterationLog> log_;  ///< on the root
+  ManufacturedSolution<dim> solution_;
+  std::optional<PoissonSolver<dim>> solver_;
+  double setup_seconds_ = 0.0, seconds_ = 0.0;
+  std::size_t n_solved_ = 0;
+};
+
 /// What smoothing leaves: the mesh itself is freed before it is written, which needs memory, too.
 template <int dim>
 struct SmoothedParts {
@@ -135,6 +229,7 @@ struct SmoothedParts {
   std::string title;
   MeshQuality before;
   SmoothingResult result;
+  std::string of_log;          ///< to print
   double distributed_seconds;  ///< until then
 };
 
@@ -148,12 +243,25 @@ SmoothedParts<dim> smoothed(const Ranks& ranks, const SmoothArguments& arguments
   const std::string parts = parts_text(ranks, mesh);
   if (ranks.is_root() && !arguments.quiet) std::printf("%s\n", parts.c_str());
   const MeshQuality before = mesh_quality(mesh.part);
-  SmoothingResult result = smooth(mesh.part, method);
+  std::optional<PartsLog<dim>> log;
+  Observer<dim> observer;
+  if (!arguments.log.empty()) {
+    log.emplace(ranks, arguments, mesh.part);
+    observer = [&](const IterationRecord& record, const Mesh<dim>& now) {
+      log->observe(record, now);
+    };
+  }
+  SmoothingResult result = smooth(mesh.part, method, observer);
+  if (log) log->finish();
   if (arguments.fail_if_invalid && result.quality.n_invalid > 0)
     throw InputError("the smoothed mesh has " + std::to_string(result.quality.n_invalid) +
                      " invalid cells; nothing is written");
   store_coordinates(mesh);
-  return {std::move(mesh.directory), method.info.title, before, std::move(result),
+  return {std::move(mesh.directory),
+          method.info.title,
+          before,
+          std::move(result),
+          log && ranks.is_root() ? log->text() : "",
           distributed_seconds};
 }
 
@@ -161,7 +269,7 @@ template <int dim>
 void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pieces& pieces,
                   ScatteredMesh<dim> scattered, const Clock& clock) {
   const double read_seconds = clock.seconds();
-  const auto [directory, title, before, result, distributed_seconds] =
+  const auto [directory, title, before, result, of_log, distributed_seconds] =
       smoothed(ranks, arguments, std::move(scattered), clock);
   const double smoothed_seconds = clock.seconds();
   pieces.write<dim>(arguments.out, directory);
@@ -177,12 +285,14 @@ void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pi
   print_quality("after", result.quality);
   std::printf(
       "%s: %s iterations in %.4g s on %d %s with %d threads each; written to %s\n"
-      "seconds: %.4g to read, %.4g to distribute, %.4g to smooth, %.4g to write; at most %.3g GiB "
+      "%sseconds: %.4g to read, %.4g to distribute, %.4g to smooth, %.4g to write; at most %.3g "
+      "GiB "
       "a process\n",
       title.c_str(), result.iterations_text().c_str(), seconds, ranks.size(),
-      ranks.size() == 1 ? "process" : "processes", n_threads(), arguments.out.c_str(), read_seconds,
-      distributed_seconds - read_seconds, smoothed_seconds - distributed_seconds,
-      clock.seconds() - smoothed_seconds, peak / (1024.0 * 1024.0 * 1024.0));
+      ranks.size() == 1 ? "process" : "processes", n_threads(), arguments.out.c_str(),
+      of_log.c_str(), read_seconds, distributed_seconds - read_seconds,
+      smoothed_seconds - distributed_seconds, clock.seconds() - smoothed_seconds,
+      peak / (1024.0 * 1024.0 * 1024.0));
 }
 
 std::vector<std::size_t> counts_of(const std::string& text) {
@@ -224,7 +334,9 @@ void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments) {
       std::error_code ignored;
       if (std::filesystem::equivalent(all.in, all.out, ignored))
         throw InputError("-o names the mesh itself; give another file name");
-      if (ranks.is_root()) require_writable_file(all.out);
+      if (!ranks.is_root()) return;
+      require_writable_file(all.out);
+      if (!all.log.empty()) require_writable_file(all.log);
     });
     share_cores(all.n_threads);
     const Clock clock;

@@ -220,6 +220,11 @@ void smooth_file(SmoothArguments arguments) {
   arguments.has_target = !arguments.target.empty();
   if (arguments.in.empty()) throw CLI::RequiredError("in");
   if (works_in_parts(arguments.out)) return smooth_pieces(arguments);
+  if (!arguments.solution.empty() || arguments.resume)
+    throw InputError(
+        std::string(arguments.resume ? "--resume" : "--solution") +
+        " works on a mesh in parts; start the command by 'mpirun -np 1' or more, or write a study, "
+        "which records finite elements on a whole mesh");
   const WriteTarget target = parse_write_target(arguments.to);
   if (arguments.out.empty()) arguments.out = default_output(arguments.in, target.extension);
   if (arguments.n_threads > 0) set_n_threads(arguments.n_threads);
@@ -310,7 +315,25 @@ void add_smooth_command(CLI::App& app) {
       "make a tangled mesh valid first; with --boundary slide boundary nodes slide, too");
   command->add_option("--threads", arguments->n_threads, "number of threads (default: all cores)")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--log", arguments->log, "CSV file with one row per iteration");
+  auto* const log =
+      command->add_option("--log", arguments->log, "CSV file with one row per iteration");
+  auto* const solution = command
+                             ->add_option("--solution", arguments->solution,
+                                          "on a mesh in parts: solve finite elements of degree 1 "
+                                          "for this solution (see 'list') after every iteration, "
+                                          "and add their errors and costs to the rows of --log")
+                             ->needs(log);
+  command
+      ->add_option("--finite-elements", arguments->finite_elements,
+                   "key=value, as in the subsection 'finite elements' of studies, for example "
+                   "multigrid cg=always (default: condition number=lanczos)")
+      ->allow_extra_args(false)
+      ->needs(solution);
+  command
+      ->add_flag("--resume", arguments->resume,
+                 "on a mesh in parts: keep the rows that --log has from an interrupted run of this "
+                 "command, and solve only after them")
+      ->needs(log);
   command->add_option("--series", arguments->series, "VTU series (.pvd) with every iteration");
   command
       ->add_option(

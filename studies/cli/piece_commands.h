@@ -12,6 +12,8 @@
 
 namespace smoothfem {
 
+struct PoissonOptions;
+
 /// The user's arguments of `generate box`.
 struct BoxArguments {
   std::string cells, split = "tetrahedra";
@@ -45,4 +47,7 @@ void smoothfem_report_pieces(const std::string& mesh, const bool& as_json);
 void smoothfem_generate_box(const smoothfem::BoxArguments& arguments);
 void smoothfem_split_mesh(const smoothfem::AnyMesh& mesh, const std::size_t& n_pieces,
                           const std::string& out);
+/// A function of the module of studies: reads --finite-elements.
+void smoothfem_read_finite_elements(const std::vector<std::string>& settings,
+                                    smoothfem::PoissonOptions& options);
 }

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Studies on several ranks. They need all cores for themselves.
+#include <map>
+#include <sstream>
+
+#include "studies/framework/results/csv_text.h"
 #include "studies/tests/resume_tests.h"
 
 namespace smoothfem {
@@ -52,6 +56,67 @@ TEST_F(SmallResume, MeshesInPartsAreTheSameOnAnyNumberOfRanks) {
               content_of(file("all1/all1_000" + number + ".vtu")));
   EXPECT_EQ(on(2, {"smooth", path("box.pvtu"), "-m", "energy-descent", "-o", path("no.pvtu")}), 2);
   EXPECT_FALSE(fs::exists(file("no.pvtu")));
+}
+
+/// The rows of a log, by the names of their columns; without times.
+std::vector<std::map<std::string, std::string>> rows_of_log(const std::string& text) {
+  std::vector<std::map<std::string, std::string>> rows;
+  std::vector<std::string> names;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto fields = csv_fields(line);
+    if (names.empty()) {
+      names = fields;
+      continue;
+    }
+    auto& row = rows.emplace_back();
+    for (std::size_t k = 0; k < fields.size(); ++k)
+      if (!names[k].ends_with("_seconds")) row[names[k]] = fields[k];
+  }
+  return rows;
+}
+
+TEST_F(SmallResume, RecordsOfMeshesInPartsGoOnAfterAnInterruption) {
+  const auto on = [&](int n_ranks, const std::string& log, const std::string& solution,
+                      std::vector<std::string> more = {}) {
+    auto words = mpirun_on(n_ranks);
+    for (const std::string& word :
+         std::vector<std::string>{SMOOTHFEM_PROGRAM, "smooth", "grid.mesh", "-m", "smart-laplace",
+                                  "--set", "max_iterations=3", "-o", file("out.mesh").string(),
+                                  "--log", file(log).string(), "--solution", solution, "--quiet"})
+      words.push_back(word == "grid.mesh" ? file(word).string() : word);
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  ASSERT_EQ(on(1, "one.csv", "sine"), 0);
+  ASSERT_EQ(on(2, "two.csv", "sine"), 0);
+  const std::string text = content_of(file("two.csv"));
+  const auto one = rows_of_log(content_of(file("one.csv"))), two = rows_of_log(text);
+  ASSERT_EQ(one.size(), 4u);
+  ASSERT_EQ(two.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (const std::string column : {"iteration", "q_min", "q_mean", "n_dofs", "n_free", "status"})
+      EXPECT_EQ(one[k].at(column), two[k].at(column)) << column;
+    for (const std::string column : {"l2_error", "h1_error", "condition_number"})
+      EXPECT_NEAR(std::stod(one[k].at(column)) / std::stod(two[k].at(column)), 1.0, 1e-4) << column;
+    EXPECT_EQ(one[k].at("status"), "ok");
+  }
+  EXPECT_NE(one[0].at("l2_error"), one[3].at("l2_error"));
+
+  // The rows that are left stay as they are; others are computed again.
+  std::size_t end = 0;
+  for (int line = 0; line < 3; ++line) end = text.find('\n', end) + 1;
+  const std::string kept = text.substr(0, end);
+  file_with("two.csv", kept + "smooth,grid,smart");  // the last row is torn
+  ASSERT_EQ(on(2, "two.csv", "sine", {"--resume"}), 0);
+  EXPECT_TRUE(content_of(file("two.csv")).starts_with(kept));
+  EXPECT_EQ(rows_of_log(content_of(file("two.csv"))), two);
+  file_with("two.csv", kept);
+  EXPECT_EQ(on(1, "two.csv", "gear", {"--resume"}), 2);
+  EXPECT_EQ(content_of(file("two.csv")), kept);
+  EXPECT_EQ(on(1, "two.csv", "sine", {"--finite-elements", "cg tolerance=2"}), 2);
+  EXPECT_EQ(on(1, "two.csv", "none"), 2);
+  EXPECT_EQ(content_of(file("two.csv")), kept);
 }
 
 }  // namespace

@@ -33,23 +33,6 @@ std::vector<std::string> method_labels(const std::string& list, MeshDimensions d
   return names;
 }
 
-Recorded recorded(const std::string& text) {
-  return text == "never"     ? Recorded::never
-         : text == "results" ? Recorded::results
-                             : Recorded::always;
-}
-
-ConditionNumberMethod condition_number_method(const std::string& text) {
-  return text == "none"      ? ConditionNumberMethod::none
-         : text == "lanczos" ? ConditionNumberMethod::lanczos
-                             : ConditionNumberMethod::verified;
-}
-
-/// Returns the number of Gauss points; 0: chosen by the program.
-int hexahedron_points(const std::string& text) {
-  return text == "auto" ? 0 : std::stoi(text);
-}
-
 /// Returns the numbers of "sequential: 10, ..."; deal.II has checked them.
 std::map<std::string, int> stage_numbers(const std::string& text) {
   std::map<std::string, int> numbers;
@@ -230,19 +213,9 @@ void read_problem(ParameterHandler& p, const StudyText& text, Study& study) {
   }
   {
     const Subsection subsection(p, "finite elements");
-    study.finite_elements.load = p.get("load") == "nodal" ? Load::nodal : Load::quadrature;
-    study.finite_elements.geometry =
-        p.get("geometry") == "straight" ? Geometry::straight : Geometry::curved;
-    study.finite_elements.tensor_points = {static_cast<int>(p.get_integer("quadrilateral points")),
-                                           hexahedron_points(p.get("hexahedron points"))};
-    study.finite_elements.cg_tolerance = p.get_double("cg tolerance");
-    study.finite_elements.boundary_in_norm = p.get_bool("boundary in norm");
-    if (p.get_double("cg seconds") > 0.0)
-      study.finite_elements.max_cg_seconds = p.get_double("cg seconds");
-    study.finite_elements.condition_number = condition_number_method(p.get("condition number"));
-    study.finite_elements.jacobi_cg = recorded(p.get("jacobi cg"));
-    study.finite_elements.multigrid_cg = recorded(p.get("multigrid cg"));
-    study.finite_elements.best_approximation = recorded(p.get("best approximation"));
+    auto natural_groups = std::move(study.finite_elements.natural_groups);
+    study.finite_elements = read_finite_elements(p);
+    study.finite_elements.natural_groups = std::move(natural_groups);
   }
   {
     const Subsection subsection(p, "thresholds");

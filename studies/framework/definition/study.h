@@ -249,6 +249,10 @@ Study read_study(const std::filesystem::path& file, const std::string& scale = {
 /// it.
 Study study_of_text(const StudyText& text, const std::string& scale = {});
 
+/// Returns the options that settings "KEY=VALUE" make, with the keys of the subsection 'finite
+/// elements'. Condition numbers are those of CG, unless set. Throws InputError.
+PoissonOptions finite_element_options(const std::vector<std::string>& settings);
+
 /// Returns a commented parameter file with every key and its default, for a mesh and a method named
 /// LABEL.
 std::string study_template();

@@ -8,6 +8,7 @@
 
 #include "meshes/distortion/distort.h"
 #include "meshes/domains/catalogue.h"
+#include "smoothing/base/find_named.h"
 #include "smoothing/loop/method_scheme.h"
 #include "smoothing/loop/preset.h"
 #include "studies/framework/definition/study.h"
@@ -49,6 +50,23 @@ std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
   constexpr double max_int = std::numeric_limits<int>::max();
   return std::make_unique<Patterns::Integer>(static_cast<int>(std::max(parameter.lower, -max_int)),
                                              static_cast<int>(std::min(parameter.upper, max_int)));
+}
+
+Recorded recorded(const std::string& text) {
+  return text == "never"     ? Recorded::never
+         : text == "results" ? Recorded::results
+                             : Recorded::always;
+}
+
+ConditionNumberMethod condition_number_method(const std::string& text) {
+  return text == "none"      ? ConditionNumberMethod::none
+         : text == "lanczos" ? ConditionNumberMethod::lanczos
+                             : ConditionNumberMethod::verified;
+}
+
+/// Returns the number of Gauss points; 0: chosen by the program.
+int hexahedron_points(const std::string& text) {
+  return text == "auto" ? 0 : std::stoi(text);
 }
 
 /// Pattern of "STAGE: k, STAGE: k".
@@ -199,6 +217,75 @@ void declare_parameters(ParameterHandler& p, const Parameters& parameters) {
                     parameter.description);
 }
 
+void declare_finite_elements(ParameterHandler& p) {
+  p.declare_entry("load", "quadrature", Patterns::Selection("quadrature|nodal"),
+                  "quadrature: integrals of f, the Galerkin load; nodal: f is interpolated first, "
+                  "as in the protocol of Chapter 6.");
+  p.declare_entry("geometry", "curved", Patterns::Selection("curved|straight"),
+                  "Cells of second order: mapped by all their nodes, or by their corners alone.");
+  p.declare_entry("quadrilateral points", "8", Patterns::Integer(1, 20),
+                  "Gauss points per direction on quadrilaterals.");
+  p.declare_entry("hexahedron points", "auto", Patterns::Selection(hexahedron_points()),
+                  "Gauss points per direction on hexahedra (pyramids, prisms): 1 to 20, or auto: "
+                  "each cell has 4, or as many as leave an error of less than 1e-4.");
+  p.declare_entry("cg tolerance", "1e-8", Patterns::Double(0.0, 1.0), "Tolerance for |r| / |b|.");
+  p.declare_entry("boundary in norm", "true", Patterns::Bool(),
+                  "Take the boundary values into |b| (the thesis' counts do).");
+  p.declare_entry(
+      "cg seconds", "0", Patterns::Double(0.0),
+      "Longest time of each run of CG; 0: no limit. The status of a run that is cut says so.");
+  p.declare_entry("condition number", "verified", Patterns::Selection("none|lanczos|verified"),
+                  "Condition number of every record; initial and resulting meshes have verified "
+                  "ones if any.");
+  p.declare_entry(
+      "jacobi cg", "always", Patterns::Selection("never|results|always"),
+      "Meshes for which CG also runs with Jacobi; results: initial and resulting meshes.");
+  p.declare_entry("multigrid cg", "never", Patterns::Selection("never|results|always"),
+                  "Meshes for which CG also runs with algebraic multigrid. Records of planar "
+                  "meshes are then solved one after the other.");
+  p.declare_entry("best approximation", "results", Patterns::Selection("never|results|always"),
+                  "Meshes for which the errors of the best approximations to u are recorded.");
+}
+
+PoissonOptions read_finite_elements(ParameterHandler& p) {
+  PoissonOptions options;
+  options.load = p.get("load") == "nodal" ? Load::nodal : Load::quadrature;
+  options.geometry = p.get("geometry") == "straight" ? Geometry::straight : Geometry::curved;
+  options.tensor_points = {static_cast<int>(p.get_integer("quadrilateral points")),
+                           hexahedron_points(p.get("hexahedron points"))};
+  options.cg_tolerance = p.get_double("cg tolerance");
+  options.boundary_in_norm = p.get_bool("boundary in norm");
+  if (p.get_double("cg seconds") > 0.0) options.max_cg_seconds = p.get_double("cg seconds");
+  options.condition_number = condition_number_method(p.get("condition number"));
+  options.jacobi_cg = recorded(p.get("jacobi cg"));
+  options.multigrid_cg = recorded(p.get("multigrid cg"));
+  options.best_approximation = recorded(p.get("best approximation"));
+  return options;
+}
+
+PoissonOptions finite_element_options(const std::vector<std::string>& settings) {
+  ParameterHandler p;
+  declare_finite_elements(p);
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : all_parameters(p)) keys.push_back(key);
+  p.set("condition number", std::string("lanczos"));
+  for (const auto& setting : settings) {
+    const StudyLine read = study_line("set " + setting);
+    if (std::find(keys.begin(), keys.end(), read.name) == keys.end())
+      throw InputError(
+          "--finite-elements '" + setting + "': " +
+          (read.kind == StudyLine::Kind::set ? choose_one_of(keys, read.name) : "give key=value"));
+    try {
+      p.set(read.name, read.value);
+    } catch (const dealii::ExceptionBase&) {
+      throw InputError("--finite-elements '" + setting +
+                       "' has a bad value; 'smoothfem list --study-keys smoothing' shows the range "
+                       "of each key");
+    }
+  }
+  return read_finite_elements(p);
+}
+
 void declare_problem(ParameterHandler& p) {
   p.declare_entry("degrees", "1, 2", Patterns::Anything(),
                   "Degrees of the finite elements; empty: smoothing only.");
@@ -269,34 +356,7 @@ void declare_problem(ParameterHandler& p) {
   }
   {
     const Subsection subsection(p, "finite elements");
-    p.declare_entry(
-        "load", "quadrature", Patterns::Selection("quadrature|nodal"),
-        "quadrature: integrals of f, the Galerkin load; nodal: f is interpolated first, "
-        "as in the protocol of Chapter 6.");
-    p.declare_entry("geometry", "curved", Patterns::Selection("curved|straight"),
-                    "Cells of second order: mapped by all their nodes, or by their corners alone.");
-    p.declare_entry("quadrilateral points", "8", Patterns::Integer(1, 20),
-                    "Gauss points per direction on quadrilaterals.");
-    p.declare_entry("hexahedron points", "auto", Patterns::Selection(hexahedron_points()),
-                    "Gauss points per direction on hexahedra (pyramids, prisms): 1 to 20, or auto: "
-                    "each cell has 4, or as many as leave an error of less than 1e-4.");
-    p.declare_entry("cg tolerance", "1e-8", Patterns::Double(0.0, 1.0), "Tolerance for |r| / |b|.");
-    p.declare_entry("boundary in norm", "true", Patterns::Bool(),
-                    "Take the boundary values into |b| (the thesis' counts do).");
-    p.declare_entry(
-        "cg seconds", "0", Patterns::Double(0.0),
-        "Longest time of each run of CG; 0: no limit. The status of a run that is cut says so.");
-    p.declare_entry("condition number", "verified", Patterns::Selection("none|lanczos|verified"),
-                    "Condition number of every record; initial and resulting meshes have verified "
-                    "ones if any.");
-    p.declare_entry(
-        "jacobi cg", "always", Patterns::Selection("never|results|always"),
-        "Meshes for which CG also runs with Jacobi; results: initial and resulting meshes.");
-    p.declare_entry("multigrid cg", "never", Patterns::Selection("never|results|always"),
-                    "Meshes for which CG also runs with algebraic multigrid. Records of planar "
-                    "meshes are then solved one after the other.");
-    p.declare_entry("best approximation", "results", Patterns::Selection("never|results|always"),
-                    "Meshes for which the errors of the best approximations to u are recorded.");
+    declare_finite_elements(p);
   }
   const Subsection subsection(p, "thresholds");
   p.declare_entry("reference", "", Patterns::Anything(),

@@ -22,6 +22,11 @@ void declare_method(dealii::ParameterHandler& p, MeshDimensions dimensions, cons
                     const std::filesystem::path& folder = {});
 void declare_problem(dealii::ParameterHandler& p);
 
+/// Declares the keys of the subsection 'finite elements', in the present subsection.
+void declare_finite_elements(dealii::ParameterHandler& p);
+/// Reads them. Degree, natural groups and ties are not among them.
+PoissonOptions read_finite_elements(dealii::ParameterHandler& p);
+
 /// Declares parameters with their defaults, ranges and descriptions.
 void declare_parameters(dealii::ParameterHandler& p, const Parameters& parameters);
 
