@@ -110,7 +110,8 @@ template <int dim>
 ScatteredMesh<dim> balanced(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   constexpr double tolerance = 1.05;
   const auto most = static_cast<std::size_t>(ranks.max(static_cast<double>(mesh.cells.size())));
-  if (static_cast<double>(most) * ranks.size() <= tolerance * static_cast<double>(mesh.n_cells))
+  if (ranks.size() == 1 || (mesh.is_compact && static_cast<double>(most) * ranks.size() <=
+                                                   tolerance * static_cast<double>(mesh.n_cells)))
     return mesh;
   const auto runs = make_runs(mesh);
   const std::vector<int> to = bisected(ranks, runs, ranks.size());

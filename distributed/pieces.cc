@@ -220,6 +220,43 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& pa
   return mesh;
 }
 
+[[noreturn]] void refuse_changed(const std::filesystem::path& path) {
+  throw InputError(path.string() + ": has changed since it was read");
+}
+
+/// Writes a file of any format with other coordinates.
+template <int dim>
+void write_whole(const std::filesystem::path& path, const std::vector<NodeEntry<dim>>& entries,
+                 const std::filesystem::path& out) {
+  MeshFile file = read_mesh(path, {.turns_over = false});
+  auto* const mesh = std::get_if<Mesh<dim>>(&file.mesh);
+  if (mesh == nullptr || mesh->n_nodes() != entries.size()) refuse_changed(path);
+  std::vector<FixedReasons> reasons;
+  for (NodeIndex i = 0; i < entries.size(); ++i) {
+    mesh->coordinates()[i] = entries[i].point();
+    reasons.push_back(entries[i].reasons);
+  }
+  write_mesh(out, with_fixed_nodes(std::move(*mesh), std::move(reasons)));
+}
+
+/// As above, a piece, whose cells were checked when the parts were made.
+template <int dim>
+void write_piece(const std::filesystem::path& path, const std::vector<NodeEntry<dim>>& entries,
+                 const std::filesystem::path& out) {
+  MeshParts parts = read_mesh_parts(path);
+  if (parts.leaves_out_unused_nodes) drop_unused_nodes(parts);
+  if (dimension_of(parts) != dim || parts.coordinates.size() != entries.size())
+    refuse_changed(path);
+  std::vector<Point<3>> points;
+  std::vector<bool> fixed;
+  for (const NodeEntry<dim>& entry : entries) {
+    points.push_back(Point<3>::Zero());
+    points.back().head<dim>() = entry.point();
+    fixed.push_back(entry.reasons != 0);
+  }
+  write_vtu(out, plain_mesh(std::move(parts), std::move(points), std::move(fixed)));
+}
+
 }  // namespace
 
 Pieces::Pieces(const Ranks& ranks, const std::filesystem::path& path) : ranks_(ranks), path_(path) {
@@ -232,12 +269,21 @@ std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces) {
 }
 
 std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
+  if (!is_list(path_)) {
+    auto& blocks = blocks_.emplace(ranks_, path_);
+    if (blocks.obstacle().empty()) return blocks.read();
+    if (ranks_.size() > 1)
+      notes_.push_back("the first process alone reads and writes the file: " + blocks.obstacle());
+    blocks_.reset();
+  }
   std::vector<ReadPiece> pieces;
   CellTable cells;  // corners are positions among the nodes of all pieces
   ranks_.together([&] {
     std::size_t n_nodes = 0;
     for (std::size_t p = first_piece(); p < last_piece(); ++p) {
-      pieces.push_back(take_piece(files_[p], read_mesh_parts(files_[p]), n_nodes, cells));
+      MeshParts parts = read_mesh_parts(files_[p]);
+      if (!is_list(path_)) notes_.insert(notes_.end(), parts.notes.begin(), parts.notes.end());
+      pieces.push_back(take_piece(files_[p], std::move(parts), n_nodes, cells));
       if (!is_list(path_)) {  // all nodes are here; two of them may lie in one place
         pieces.back().numbers.resize(pieces.back().points.size());
         std::iota(pieces.back().numbers.begin(), pieces.back().numbers.end(), std::int64_t{0});
@@ -291,6 +337,12 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
 template <int dim>
 void Pieces::write(const std::filesystem::path& out,
                    const NodeDirectory<NodeEntry<dim>>& directory) const {
+  if (blocks_ && out.extension() == path_.extension()) return blocks_->write(out, directory);
+  if (blocks_) {
+    nodes_.assign(1, {});
+    if (ranks_.is_root()) nodes_.front().resize(directory.n());
+    std::iota(nodes_.front().begin(), nodes_.front().end(), GlobalIndex{0});
+  }
   const auto n_rounds =
       static_cast<std::size_t>(ranks_.max(static_cast<double>(last_piece() - first_piece())));
   for (std::size_t k = 0; k < n_rounds; ++k) {
@@ -301,17 +353,8 @@ void Pieces::write(const std::filesystem::path& out,
     ranks_.together([&] {
       if (!has_piece) return;
       const std::size_t p = first_piece() + k;
-      MeshFile file = read_mesh(files_[p], {.turns_over = false});
-      auto* const mesh = std::get_if<Mesh<dim>>(&file.mesh);
-      if (mesh == nullptr || mesh->n_nodes() != entries.size())
-        throw InputError(files_[p].string() + ": has changed since it was read");
-      std::vector<FixedReasons> reasons;
-      for (NodeIndex i = 0; i < entries.size(); ++i) {
-        mesh->coordinates()[i] = entries[i].point();
-        reasons.push_back(entries[i].reasons);
-      }
-      write_mesh(is_list(path_) ? piece_file(out, p) : out,
-                 with_fixed_nodes(std::move(*mesh), std::move(reasons)));
+      is_list(path_) ? write_piece<dim>(files_[p], entries, piece_file(out, p))
+                     : write_whole<dim>(files_[p], entries, out);
     });
   }
   ranks_.together([&] {

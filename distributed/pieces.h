@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "distributed/distributed_mesh.h"
+#include "distributed/file_blocks.h"
 
 namespace smoothfem {
 
@@ -14,11 +17,12 @@ namespace smoothfem {
 std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces);
 
 /// A mesh in several files: VTK's .pvtu and the pieces that it names. Any other file is a mesh of
-/// one piece, which the first rank reads. Each cell is in one piece; nodes between pieces are in
-/// all of these. Cells have the numbers of the array with the role GlobalIds, if all
-/// pieces have one, otherwise those of their order. Nodes have the numbers of the array
-/// with the role GlobalIds or of `node_id`, from 0 or above, if all pieces have one of these.
-/// Otherwise nodes with equal coordinates are the same, and are numbered as they first appear.
+/// one piece. All ranks read it in blocks if they can (file_blocks.h), otherwise the first rank.
+/// Each cell is in one piece; nodes between pieces are in all of these. Cells have the numbers of
+/// the array with the role GlobalIds, if all pieces have one, otherwise those of their order. Nodes
+/// have the numbers of the array with the role GlobalIds or of `node_id`, from 0 or above, if all
+/// pieces have one of these. Otherwise nodes with equal coordinates are the same, and are numbered
+/// as they first appear.
 ///
 /// Each rank reads its pieces (first_piece_of()) one after the other. Each file is read by one
 /// rank.
@@ -32,6 +36,10 @@ class Pieces {
   /// Reads all pieces. The variant is that of their cells' dimension. Collective. Throws
   /// InputError.
   std::variant<ScatteredMesh<2>, ScatteredMesh<3>> read() const;
+
+  /// Returns why the first rank alone has read the file, and what it has left out, one sentence
+  /// each. Same on all ranks.
+  const std::vector<std::string>& notes() const { return notes_; }
 
   /// Writes pieces with new coordinates, and all else as it is in the files: out.pvtu, and the
   /// pieces as out/out_NNNN.vtu; the only piece of another file as `out`. directory: with
@@ -51,6 +59,8 @@ class Pieces {
   std::vector<std::filesystem::path> files_;
   /// Numbers of the nodes of each piece of this rank, since read().
   mutable std::vector<std::vector<GlobalIndex>> nodes_;
+  mutable std::optional<FileBlocks> blocks_;  ///< of a file that is read in blocks
+  mutable std::vector<std::string> notes_;
 };
 
 /// Writes the file that lists the pieces at piece_file(), and the arrays of the first one.

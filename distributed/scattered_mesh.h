@@ -14,6 +14,7 @@ struct ScatteredMesh {
   /// Nodes: coordinates, and the reasons to stay that files say.
   NodeDirectory<NodeEntry<dim>> nodes;
   bool fixes_boundary = true;  ///< nodes on the boundary stay
+  bool is_compact = true;      ///< cells of a rank lie together, so that they may stay on it
 };
 
 }  // namespace smoothfem

@@ -382,6 +382,144 @@ TEST(Parts, CopiedCellsOfPiecesCountOnce) {
   EXPECT_EQ(mesh_quality(parts.part).q_min, mesh_quality(mesh).q_min);
 }
 
+/// All cells of a scattered mesh, in their order, as words: number, tag, corners.
+template <int dim>
+std::vector<GlobalIndex> all_cells(const Ranks& ranks, const ScatteredMesh<dim>& mesh) {
+  std::vector<std::vector<GlobalIndex>> to(static_cast<std::size_t>(ranks.size()));
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) append_words(mesh.cells, c, to[0]);
+  const CellTable cells = sorted_cells(ranks.exchange(std::move(to)), 0);
+  std::vector<GlobalIndex> words;
+  for (std::size_t c = 0; c < cells.size(); ++c) append_words(cells, c, words);
+  return words;
+}
+
+/// Two materials between labelled facets, with numbers of nodes and cells in no order and with
+/// gaps, and a node that no cell has.
+VolumeMesh numbered_mesh() {
+  const auto mesh = two_materials(box_mesh(4, 3, 5, BoxCells::mixed), 0.3, 4);
+  MeshLabels labels = mesh.topology().labels();
+  for (std::size_t f = 0; f < 3; ++f) {
+    labels.facets.append(mesh.topology().boundary_facets()[f]);
+    labels.facet_tags.push_back(7);
+  }
+  auto points = mesh.copied_coordinates();
+  points.insert(points.begin() + 5, Point<3>(9.0, 9.0, 9.0));
+  const auto shifted = [](const CompressedRows<NodeIndex>& rows) {
+    CompressedRows<NodeIndex> result;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      std::vector<NodeIndex> row;
+      for (const NodeIndex node : rows[r]) row.push_back(node < 5 ? node : node + 1);
+      result.append(row);
+    }
+    return result;
+  };
+  labels.facets = shifted(labels.facets);
+  for (std::size_t i = 0; i < points.size(); ++i) labels.node_ids.push_back(3 + 2 * i + i % 2 * 5);
+  for (std::size_t c = 0; c < mesh.n_cells(); ++c)
+    labels.cell_ids.push_back(2 * ((c * 7) % mesh.n_cells()) + 10);
+  return {std::make_shared<const Topology>(3, points.size(), shifted(mesh.topology().cells()),
+                                           std::nullopt, std::move(labels)),
+          std::move(points)};
+}
+
+/// The first rank reads text; all read blocks of the binary file.
+TEST(Parts, BlocksOfAFileAreTheMesh) {
+  const Folder folder;
+  const auto mesh = numbered_mesh();
+  all_ranks().on_root([&] {
+    write_mesh(folder / "text.msh", mesh, {}, {.binary = false});
+    write_mesh(folder / "blocks.msh", mesh, {}, {.binary = true});
+  });
+  const Pieces text(all_ranks(), folder / "text.msh"), blocks(all_ranks(), folder / "blocks.msh");
+  const auto expected = std::get<ScatteredMesh<3>>(text.read()),
+             found = std::get<ScatteredMesh<3>>(blocks.read());
+  EXPECT_EQ(text.notes().empty(), all_ranks().size() == 1);
+  EXPECT_TRUE(blocks.notes().empty());
+  EXPECT_EQ(found.n_cells, mesh.n_cells());
+  EXPECT_LT(all_ranks().max(static_cast<double>(found.cells.size())) * all_ranks().size(),
+            static_cast<double>(mesh.n_cells() + 3) + all_ranks().size());
+  EXPECT_EQ(all_cells(all_ranks(), found), all_cells(all_ranks(), expected));
+  ASSERT_EQ(found.nodes.n(), mesh.n_nodes() - 1);
+  ASSERT_EQ(expected.nodes.n(), mesh.n_nodes() - 1);
+  std::vector<GlobalIndex> numbers(found.nodes.n());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  const auto place = [](const NodeEntry<3>& entry) { return entry.x; };
+  const auto reasons = [](const NodeEntry<3>& entry) { return entry.reasons; };
+  EXPECT_EQ(found.nodes.ask(numbers, place), expected.nodes.ask(numbers, place));
+  const auto labelled = found.nodes.ask(numbers, reasons);
+  EXPECT_EQ(labelled, expected.nodes.ask(numbers, reasons));
+  EXPECT_GT(std::count(labelled.begin(), labelled.end(), bit(FixedReason::interface)), 3);
+}
+
+TEST(Parts, FilesReadInBlocksAreWrittenWithTheSameNodes) {
+  const Folder folder;
+  const auto mesh = numbered_mesh();
+  all_ranks().on_root([&] {
+    write_mesh(folder / "text.msh", mesh, {}, {.binary = false});
+    write_mesh(folder / "blocks.msh", mesh, {}, {.binary = true});
+  });
+  smoothed_pieces(all_ranks(), folder / "text.msh", folder / "text_out.msh");
+  smoothed_pieces(all_ranks(), folder / "blocks.msh", folder / "blocks_out.msh");
+  smoothed_pieces(all_ranks(), folder / "blocks.msh", folder / "blocks_out.vtu");
+  all_ranks().on_root([&] {
+    const auto read = [&](const char* name) {
+      return std::get<VolumeMesh>(read_mesh(folder / name, {.turns_over = false}).mesh);
+    };
+    const auto text = read("text_out.msh"), blocks = read("blocks_out.msh");
+    EXPECT_EQ(blocks.copied_coordinates(), text.copied_coordinates());
+    EXPECT_EQ(read("blocks_out.vtu").copied_coordinates(), text.copied_coordinates());
+    EXPECT_NE(blocks.copied_coordinates(), read("blocks.msh").copied_coordinates());
+    EXPECT_EQ(blocks.topology().labels(), read("blocks.msh").topology().labels());
+    EXPECT_EQ(content_of(folder / "blocks_out.msh").size(),
+              content_of(folder / "blocks.msh").size());
+  });
+}
+
+TEST(Parts, DamagedBlocksAreRefusedOnAllRanks) {
+  const Folder folder;
+  const auto mesh = numbered_mesh();
+  all_ranks().on_root([&] { write_mesh(folder / "whole.msh", mesh, {}, {.binary = true}); });
+  // The first tag of an element's node, behind the four totals, the block's head and the element's
+  // tag, becomes one that no node has.
+  all_ranks().on_root([&] {
+    std::string bytes = content_of(folder / "whole.msh");
+    const std::size_t at = bytes.find("$Elements\n") + 10 + 32 + 20 + 8;
+    bytes[at] = 2;
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at) + 1, 7, '\0');
+    std::ofstream(folder / "damaged.msh", std::ios::binary) << bytes;
+  });
+  EXPECT_THAT([&] { Pieces(all_ranks(), folder / "damaged.msh").read(); },
+              ThrowsMessage<InputError>(HasSubstr("names a node that the file does not have")));
+}
+
+/// Pieces are written without the tables of a mesh. The bytes are those of write_mesh().
+template <int dim>
+void expect_pieces_as_meshes(const Mesh<dim>& mesh, const fs::path& path) {
+  const fs::path out = path.parent_path() / "moved.pvtu", again = path.parent_path() / "again.vtu";
+  all_ranks().on_root([&] { write_in_pieces(mesh, 3, path); });
+  const Pieces pieces(all_ranks(), path);
+  auto parts =
+      distribute(all_ranks(), balanced(all_ranks(), std::get<ScatteredMesh<dim>>(pieces.read())));
+  auto method = make_method<dim>("getme-simultaneous");
+  smooth(parts.part, method);
+  store_coordinates(parts);
+  pieces.write<dim>(out, parts.directory);
+  all_ranks().on_root([&] {
+    for (std::size_t p = 0; p < 3; ++p) {
+      write_mesh(again, read_mesh(piece_file(out, p), {.turns_over = false}).mesh);
+      EXPECT_EQ(content_of(again), content_of(piece_file(out, p)));
+      EXPECT_NE(content_of(again), content_of(piece_file(path, p)));
+    }
+  });
+}
+
+TEST(Parts, PiecesAreWrittenAsMeshes) {
+  const Folder folder;
+  expect_pieces_as_meshes(numbered_mesh(), folder / "volume.pvtu");
+  expect_pieces_as_meshes(two_materials(grid_mesh(9, GridCells::mixed), 0.4, 3),
+                          folder / "planar.pvtu");
+}
+
 TEST(Parts, BadPiecesAreRefusedOnAllRanks) {
   const Folder folder;
   write_box<2>(all_ranks(), {.n = {4, 4, 1}}, 3, folder / "box.pvtu");

@@ -18,13 +18,14 @@ namespace smoothfem {
 /// the highest dimension to points. For writers. Refers to the mesh.
 class AllElements {
  public:
-  explicit AllElements(const MeshView& mesh) {
-    const Topology& topology = mesh.topology();
-    const MeshLabels& labels = topology.labels();
-    const FileContent* content = mesh.content();
-    const int dim = mesh.dimension();
-    const MidsideNodes* midside = topology.midside();
-    add({dim, &topology.cells(), midside ? &midside->of_cells : nullptr, &labels.cell_tags,
+  explicit AllElements(const MeshView& mesh)
+      : AllElements(mesh.dimension(), mesh.topology().cells(), mesh.topology().labels()) {}
+
+  /// dim: of the cells.
+  AllElements(int dim, const CompressedRows<NodeIndex>& cells, const MeshLabels& labels) {
+    const FileContent* content = labels.content.get();
+    const MidsideNodes* midside = labels.midside.get();
+    add({dim, &cells, midside ? &midside->of_cells : nullptr, &labels.cell_tags,
          content ? &content->cell_entities : nullptr, &labels.cell_ids});
     add({dim - 1, &labels.facets, midside ? &midside->of_facets : nullptr, &labels.facet_tags,
          content ? &content->facet_entities : nullptr, content ? &content->facet_ids : nullptr});

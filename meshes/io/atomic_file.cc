@@ -80,28 +80,9 @@ void flush_to_disk(const fs::path& path, const fs::path& temporary) {
   if (::fsync(file.value()) != 0) fail(path, std::strerror(errno));
 }
 
-/// Removes the temporary file unless it became the target.
-class RemovedAtExit {
- public:
-  explicit RemovedAtExit(fs::path path) : path_(std::move(path)) {}
-  ~RemovedAtExit() {
-    std::error_code ignored;  // the file may never have been created
-    if (!kept_) fs::remove(path_, ignored);
-  }
-  RemovedAtExit(const RemovedAtExit&) = delete;
-  RemovedAtExit& operator=(const RemovedAtExit&) = delete;
-  void keep() { kept_ = true; }
-
- private:
-  fs::path path_;
-  bool kept_ = false;
-};
-
-void write_all(const fs::path& path, const fs::path& temporary, std::string_view content) {
-  const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC);
-  if (file.value() < 0) fail(path, std::strerror(errno));
+void write_all(const fs::path& path, int file, std::string_view content) {
   while (!content.empty()) {
-    const ssize_t n_written = ::write(file.value(), content.data(), content.size());
+    const ssize_t n_written = ::write(file, content.data(), content.size());
     if (n_written < 0 && errno == EINTR) continue;
     if (n_written < 0) fail(path, std::strerror(errno));
     content.remove_prefix(static_cast<std::size_t>(n_written));
@@ -110,27 +91,58 @@ void write_all(const fs::path& path, const fs::path& temporary, std::string_view
 
 }  // namespace
 
-void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   require_replaceable(path);
   create_folder_of(path);
-  const fs::path temporary = temporary_path_for(path);
-  RemovedAtExit guard(temporary);
+  temporary_ = temporary_path_for(path);
+}
+
+AtomicFile::~AtomicFile() {
+  std::error_code ignored;  // the file may never have been created
+  if (!is_finished_) fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::copy_from(const fs::path& other) const {
+  std::error_code error;
+  fs::copy_file(other, temporary_, error);
+  if (!error)  // the other one may be read-only
+    fs::permissions(temporary_, fs::perms::owner_write, fs::perm_options::add, error);
+  if (error) fail(path_, error.message());
+}
+
+void AtomicFile::overwrite(std::uint64_t position, std::string_view bytes) const {
+  const Descriptor file(temporary_, O_WRONLY | O_CLOEXEC);
+  if (file.value() < 0 || ::lseek(file.value(), static_cast<off_t>(position), SEEK_SET) < 0)
+    fail(path_, std::strerror(errno));
+  write_all(path_, file.value(), bytes);
+}
+
+void AtomicFile::finish() {
+  flush_to_disk(path_, temporary_);
+  std::error_code error;
+  fs::rename(temporary_, path_, error);
+  if (error) fail(path_, error.message());
+  is_finished_ = true;
+}
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  AtomicFile file(path);
   try {
-    write(temporary);
+    write(file.temporary());
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
     fail(path, error.what());
   }
-  flush_to_disk(path, temporary);
-  std::error_code error;
-  fs::rename(temporary, path, error);
-  if (error) fail(path, error.message());
-  guard.keep();
+  file.finish();
 }
 
 void write_atomically(const fs::path& path, std::string_view content) {
-  write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, content); });
+  write_atomically(path, [&](const fs::path& temporary) {
+    const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC);
+    if (file.value() < 0) fail(path, std::strerror(errno));
+    write_all(path, file.value(), content);
+  });
 }
 
 std::string why_not_writable(const fs::path& folder) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -19,6 +20,30 @@ namespace smoothfem {
 /// `path` is a folder or a device.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// The same in steps. The file is removed at the end of the scope unless finish() was called. All
+/// functions throw InputError as above.
+class AtomicFile {
+ public:
+  /// Checks `path` and makes its folder.
+  explicit AtomicFile(const std::filesystem::path& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Returns the path to write to.
+  const std::filesystem::path& temporary() const { return temporary_; }
+  /// Makes it a copy of a file.
+  void copy_from(const std::filesystem::path& other) const;
+  /// Replaces bytes of it.
+  void overwrite(std::uint64_t position, std::string_view bytes) const;
+  /// Flushes it to the disk and gives it its name.
+  void finish();
+
+ private:
+  std::filesystem::path path_, temporary_;
+  bool is_finished_ = false;
+};
 
 /// Writes the given content atomically. Short writes are errors.
 void write_atomically(const std::filesystem::path& path, std::string_view content);

@@ -34,7 +34,12 @@ class ErrorLatchingFilebuf final : public std::filebuf {
     return traits_type::not_eof(c);
   }
   std::streamsize xsputn(const char* bytes, std::streamsize n) override {
-    if (error_ == 0 && std::filebuf::xsputn(bytes, n) != n) latch();
+    if (n > 0 && n <= epptr() - pptr()) {  // VTK writes four bytes at a time
+      std::memcpy(pptr(), bytes, static_cast<std::size_t>(n));
+      pbump(static_cast<int>(n));
+    } else if (error_ == 0 && std::filebuf::xsputn(bytes, n) != n) {
+      latch();
+    }
     return n;
   }
   int sync() override {

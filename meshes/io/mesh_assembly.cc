@@ -358,6 +358,24 @@ MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts,
   }
 }
 
+PlainMesh plain_mesh(MeshParts parts, std::vector<Point<3>> points, std::vector<bool> fixed) {
+  PlainMesh mesh{
+      .dimension = dimension_of(parts), .points = std::move(points), .fixed = std::move(fixed)};
+  lay_into_plane(parts);
+  mesh.labels = LabelParts(parts, mesh.dimension).make();  // before the cells are taken
+  mesh.cells = std::move(parts.elements[mesh.dimension].nodes);
+  std::vector<bool> is_used(mesh.points.size(), false);
+  for (const NodeIndex node : mesh.cells.entries()) is_used[node] = true;
+  for (NodeIndex i = 0; i < is_used.size(); ++i) {
+    if (!is_used[i]) mesh.fixed[i] = true;
+    if (mesh.dimension == 3) continue;
+    const Point<2> p = mesh.points[i].head<2>();
+    const auto& plane = mesh.labels.content->plane;
+    mesh.points[i] = plane ? plane->in_space(i, p) : Point<3>(p.x(), p.y(), 0.0);
+  }
+  return mesh;
+}
+
 std::string physical_name_line(const std::pair<int, int>& dimension_and_tag,
                                const std::string& name) {
   return std::to_string(dimension_and_tag.first) + " " + std::to_string(dimension_and_tag.second) +

@@ -89,6 +89,21 @@ void require_usable_coordinates(const MeshParts& parts);
 MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts,
                        const MeshReadOptions& options = {});
 
+/// A mesh that is only written. It has none of the tables of a Topology, which take most of the
+/// time of assemble_mesh().
+struct PlainMesh {
+  int dimension = 3;  ///< of the cells
+  std::vector<Point<3>> points{};
+  CompressedRows<NodeIndex> cells{};
+  std::vector<bool> fixed{};  ///< whether each node stays
+  MeshLabels labels{};
+};
+
+/// Makes the same mesh as assemble_mesh() without options, but does not check it. points: its new
+/// points, of planar meshes in their plane (z is not used). fixed: nodes that stay; those of no
+/// cell stay in any case.
+PlainMesh plain_mesh(MeshParts parts, std::vector<Point<3>> points, std::vector<bool> fixed);
+
 /// Returns a physical name as one line "dimension tag name", for formats without a section for it.
 std::string physical_name_line(const std::pair<int, int>& dimension_and_tag,
                                const std::string& name);

@@ -26,15 +26,15 @@ std::vector<double> signed_sizes(const Mesh<dim, spacedim>& mesh) {
 }
 
 /// A facet of one of its cells.
-struct CellFacet {
+struct SortedFacet {
   std::array<NodeIndex, 4> nodes;  ///< ascending, so that both cells have the same
   CellIndex cell;
 
-  auto operator<=>(const CellFacet&) const = default;
+  auto operator<=>(const SortedFacet&) const = default;
 };
 
-CellFacet cell_facet(CellIndex cell, std::span<const NodeIndex> nodes, const auto& local) {
-  CellFacet facet{{}, cell};
+SortedFacet sorted_facet(CellIndex cell, std::span<const NodeIndex> nodes, const auto& local) {
+  SortedFacet facet{{}, cell};
   facet.nodes.fill(std::numeric_limits<NodeIndex>::max());
   std::size_t n = 0;
   for (const std::size_t k : local) facet.nodes[n++] = nodes[k];
@@ -43,17 +43,17 @@ CellFacet cell_facet(CellIndex cell, std::span<const NodeIndex> nodes, const aut
 }
 
 /// Returns the facets of all cells, sorted so that the two of a facet are adjacent.
-std::vector<CellFacet> sorted_facets(const Topology& topology) {
-  std::vector<CellFacet> facets;
+std::vector<SortedFacet> sorted_facets(const Topology& topology) {
+  std::vector<SortedFacet> facets;
   facets.reserve(2 * topology.n_facets());
   for (CellIndex c = 0; c < topology.n_cells(); ++c) {
     const auto nodes = topology.cell_nodes(c);
     if (topology.dimension() == 3)
       for (const LocalFace& face : volume_element(nodes.size()).faces)
-        facets.push_back(cell_facet(c, nodes, face.indices()));
+        facets.push_back(sorted_facet(c, nodes, face.indices()));
     else
       for (std::size_t k = 0; k < nodes.size(); ++k)
-        facets.push_back(cell_facet(c, nodes, std::array{k, (k + 1) % nodes.size()}));
+        facets.push_back(sorted_facet(c, nodes, std::array{k, (k + 1) % nodes.size()}));
   }
   std::sort(facets.begin(), facets.end());
   return facets;
@@ -89,10 +89,10 @@ std::vector<double> relative_sizes_squared(const Mesh<dim, spacedim>& mesh) {
 template <int dim, int spacedim>
 std::vector<double> size_gradations(const Mesh<dim, spacedim>& mesh) {
   const std::vector<double> sizes = signed_sizes(mesh);
-  const std::vector<CellFacet> facets = sorted_facets(mesh.topology());
+  const std::vector<SortedFacet> facets = sorted_facets(mesh.topology());
   std::vector<double> values(mesh.n_cells(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t f = 1; f < facets.size(); ++f) {
-    const CellFacet &a = facets[f - 1], &b = facets[f];
+    const SortedFacet &a = facets[f - 1], &b = facets[f];
     if (a.nodes != b.nodes) continue;
     const double between = ratio(sizes[a.cell], sizes[b.cell]);
     for (const CellIndex c : {a.cell, b.cell}) values[c] = std::fmax(values[c], between);

@@ -269,6 +269,9 @@ template <int dim>
 void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pieces& pieces,
                   ScatteredMesh<dim> scattered, const Clock& clock) {
   const double read_seconds = clock.seconds();
+  if (ranks.is_root())
+    for (const std::string& note : pieces.notes())
+      std::fprintf(stderr, "smoothfem: %s: %s\n", arguments.in.c_str(), note.c_str());
   const auto [directory, title, before, result, of_log, distributed_seconds] =
       smoothed(ranks, arguments, std::move(scattered), clock);
   const double smoothed_seconds = clock.seconds();
@@ -351,7 +354,8 @@ void smoothfem_report_pieces(const std::string& mesh, const bool& as_json) {
   using namespace smoothfem;
   on_ranks([&](const Ranks& ranks) {
     share_cores(0);
-    auto scattered = Pieces(ranks, mesh).read();
+    const Pieces pieces(ranks, mesh);
+    auto scattered = pieces.read();
     std::visit(
         [&](auto& of_dim) {
           const auto whole = distributed(ranks, std::move(of_dim));

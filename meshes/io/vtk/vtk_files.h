@@ -8,6 +8,8 @@
 
 namespace smoothfem {
 
+struct PlainMesh;  // mesh_assembly.h
+
 /// Reads a legacy .vtk file (unstructured grid or polygonal data, text or binary, versions 1 to 5).
 /// Or reads a .vtu file (text or binary, inline or appended, compressed by zlib, LZ4 or LZMA).
 /// VTK's readers are not used: a damaged file can crash them, or let them take all memory.
@@ -42,6 +44,8 @@ void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions& options);
 void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                const MeshWriteOptions& options);
+/// As above, in the encoding of the file that the mesh comes from.
+void write_vtu(const std::filesystem::path& path, const PlainMesh& mesh);
 
 /// Returns VTK's number of a type of cells.
 int vtk_type(ElementType type);

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <streambuf>
 #include <string>
@@ -70,31 +71,37 @@ void add_array(vtkFieldData& attributes, const std::string& name, const Values& 
   attributes.AddArray(array);
 }
 
-void set_points(const MeshView& mesh, vtkUnstructuredGrid& grid) {
+/// What a grid has of a mesh.
+struct GridSource {
+  std::size_t n_nodes;
+  std::function<Point<3>(NodeIndex)> point;
+  std::function<bool(NodeIndex)> stays;
+  AllElements elements;
+  const MeshLabels& labels;
+};
+
+GridSource source_of(const MeshView& mesh) {
+  return {mesh.n_nodes(), [&](NodeIndex i) { return mesh.point(i); },
+          [&](NodeIndex i) { return mesh.topology().reasons_to_stay(i) != 0; }, AllElements(mesh),
+          mesh.topology().labels()};
+}
+
+GridSource source_of(const PlainMesh& mesh) {
+  return {mesh.points.size(), [&](NodeIndex i) { return mesh.points[i]; },
+          [&](NodeIndex i) -> bool { return mesh.fixed[i]; },
+          AllElements(mesh.dimension, mesh.cells, mesh.labels), mesh.labels};
+}
+
+void set_points(const GridSource& mesh, vtkUnstructuredGrid& grid) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.n_nodes()));
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) points->SetPoint(i, mesh.point(i).data());
+  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.n_nodes));
+  for (NodeIndex i = 0; i < mesh.n_nodes; ++i) points->SetPoint(i, mesh.point(i).data());
   grid.SetPoints(points);
 }
 
 const FormatElement* vtk_type(int dimension, std::size_t n_corners, std::size_t n_midside) {
   return find_type(vtk_quadratic_types, dimension, n_corners, n_midside);
-}
-
-void insert_cell(vtkUnstructuredGrid& grid, int type, std::span<const NodeIndex> nodes) {
-  std::array<vtkIdType, 27> few;
-  std::vector<vtkIdType> many;
-  vtkIdType* row = few.data();
-  if (nodes.size() > few.size()) {
-    many.resize(nodes.size());
-    row = many.data();
-  }
-  std::copy(nodes.begin(), nodes.end(), row);
-  if (type == VTK_WEDGE) {
-    for (std::size_t k = 0; k < nodes.size(); ++k) row[k] = nodes[vtk_wedge[k]];
-  }
-  grid.InsertNextCell(type, static_cast<vtkIdType>(nodes.size()), row);
 }
 
 int vtk_type_of(int dimension, std::size_t n_nodes) {
@@ -103,21 +110,36 @@ int vtk_type_of(int dimension, std::size_t n_nodes) {
                           : vtk_type(element_type(dimension, n_nodes));
 }
 
+/// Fills VTK's arrays as wholes: its calls for single cells take much longer.
 void set_cells(const AllElements& elements, const std::vector<std::uint32_t>& order,
                vtkUnstructuredGrid& grid) {
-  std::size_t n_entries = 0;
-  for (std::size_t e = 0; e < elements.size(); ++e) n_entries += elements.row(e).size();
-  grid.AllocateExact(static_cast<vtkIdType>(elements.size()), static_cast<vtkIdType>(n_entries));
-  for (const std::uint32_t e : order) {
+  const auto n = static_cast<vtkIdType>(elements.size());
+  vtkNew<vtkTypeInt64Array> offsets, nodes;
+  vtkNew<vtkUnsignedCharArray> types;
+  offsets->SetNumberOfValues(n + 1);
+  types->SetNumberOfValues(n);
+  vtkIdType n_entries = 0;
+  for (vtkIdType k = 0; k < n; ++k) {
+    offsets->SetValue(k, n_entries);
+    n_entries += static_cast<vtkIdType>(elements.row(order[static_cast<std::size_t>(k)]).size());
+  }
+  offsets->SetValue(n, n_entries);
+  nodes->SetNumberOfValues(n_entries);
+  vtkTypeInt64* to = nodes->GetPointer(0);
+  for (vtkIdType k = 0; k < n; ++k) {
+    const std::uint32_t e = order[static_cast<std::size_t>(k)];
     const auto corners = elements.nodes(e), midside = elements.midside(e);
     const int dimension = elements.dimension(e);
-    const FormatElement* type =
+    const FormatElement* second_order =
         midside.empty() ? nullptr : vtk_type(dimension, corners.size(), midside.size());
-    if (type)
-      insert_cell(grid, type->number, elements.row(e, &type->order));
-    else
-      insert_cell(grid, vtk_type_of(dimension, corners.size()), corners);
+    const auto row = second_order ? elements.row(e, &second_order->order) : corners;
+    const int type = second_order ? second_order->number : vtk_type_of(dimension, corners.size());
+    types->SetValue(k, static_cast<unsigned char>(type));
+    for (std::size_t i = 0; i < row.size(); ++i) *to++ = row[type == VTK_WEDGE ? vtk_wedge[i] : i];
   }
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, nodes);
+  grid.SetCells(types, cells);
 }
 
 /// Returns the first cell that has all nodes of a facet; n_cells if there is no such cell.
@@ -168,10 +190,9 @@ void add_field(vtkFieldData& attributes, const MeshField& field,
   });
 }
 
-void add_labels(const MeshView& mesh, const AllElements& elements,
+void add_labels(const MeshLabels& labels, const AllElements& elements,
                 const std::vector<std::uint32_t>& order, vtkUnstructuredGrid& grid) {
-  const MeshLabels& labels = mesh.topology().labels();
-  const bool has_tag_field = mesh.content() && !mesh.content()->tag_field.empty();
+  const bool has_tag_field = labels.content && !labels.content->tag_field.empty();
   const auto has_value = [&](auto value_of) {
     for (std::size_t e = 0; e < elements.size(); ++e)
       if (value_of(e) != 0) return true;
@@ -240,33 +261,38 @@ void set_roles(const std::map<std::string, std::string>& roles, VtkFormat format
   }
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFields& fields,
-                                             VtkFormat format) {
-  const Topology& topology = mesh.topology();
-  const AllElements elements(mesh);
-  const auto order = elements.in_file_order(mesh.content());
+/// topology: for the values of facets; null if there are no cell fields.
+vtkSmartPointer<vtkUnstructuredGrid> grid_of(const GridSource& mesh, const MeshFields& fields,
+                                             VtkFormat format, const Topology* topology) {
+  const AllElements& elements = mesh.elements;
+  const FileContent* content = mesh.labels.content.get();
+  const auto order = elements.in_file_order(content);
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   set_points(mesh, *grid);
   set_cells(elements, order, *grid);
-  std::vector<int> fixed(mesh.n_nodes());
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    fixed[i] = topology.reasons_to_stay(i) != 0 ? 1 : 0;
+  std::vector<int> fixed(mesh.n_nodes);
+  for (NodeIndex i = 0; i < mesh.n_nodes; ++i) fixed[i] = mesh.stays(i) ? 1 : 0;
   add_array<vtkIntArray>(*grid->GetPointData(), "fixed", fixed);
-  add_labels(mesh, elements, order, *grid);
-  if (mesh.content()) add_content(*mesh.content(), fields, order, *grid);
+  add_labels(mesh.labels, elements, order, *grid);
+  if (content) add_content(*content, fields, order, *grid);
   for (const auto& [name, values] : fields.point)
     add_array<vtkDoubleArray>(*grid->GetPointData(), name, values);
   for (const auto& [name, of_cells] : fields.cell) {
-    const auto canonical = with_other_elements(topology, elements, of_cells);
+    const auto canonical = with_other_elements(*topology, elements, of_cells);
     std::vector<double> values;
     for (const std::uint32_t e : order) values.push_back(canonical[e]);
     add_array<vtkDoubleArray>(*grid->GetCellData(), name, values);
   }
-  if (const FileContent* content = mesh.content()) {
+  if (content) {
     set_roles(content->node_roles, format, *grid->GetPointData());
     set_roles(content->element_roles, format, *grid->GetCellData());
   }
   return grid;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFields& fields,
+                                             VtkFormat format) {
+  return grid_of(source_of(mesh), fields, format, &mesh.topology());
 }
 
 template <class Writer>
@@ -316,8 +342,8 @@ void escape_names(vtkFieldData& attributes) {
 namespace {
 
 /// As the user wishes, otherwise as in the file that the mesh comes from.
-bool writes_binary(const MeshView& mesh, const MeshWriteOptions& options, std::string_view format) {
-  const FileContent* content = mesh.content();
+bool writes_binary(const FileContent* content, const MeshWriteOptions& options,
+                   std::string_view format) {
   return options.binary.value_or(!content || content->format != format || content->is_binary);
 }
 
@@ -338,7 +364,7 @@ void require_vtk_cells(const std::filesystem::path& path, const MeshView& mesh) 
 void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions& options) {
   require_vtk_cells(path, mesh);
-  if (!writes_binary(mesh, options, "vtk"))
+  if (!writes_binary(mesh.content(), options, "vtk"))
     return write_atomically(path, legacy_vtk_text(*grid_of(mesh, fields, VtkFormat::legacy)));
   vtkNew<vtkUnstructuredGridWriter> writer;
   writer->SetFileVersion(vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
@@ -350,26 +376,39 @@ void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
   write_atomically(path, writer->GetOutputStdString());
 }
 
-void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
-               const MeshWriteOptions& options) {
-  require_vtk_cells(path, mesh);
+namespace {
+
+void write_vtu(const std::filesystem::path& path, vtkUnstructuredGrid& grid, bool is_binary) {
   vtkNew<StreamingWriter> writer;
-  if (writes_binary(mesh, options, "vtu"))
+  if (is_binary)
     writer->SetDataModeToBinary();
   else
     writer->SetDataModeToAscii();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToNone();
-  const auto grid = grid_of(mesh, fields, VtkFormat::xml);
-  escape_names(*grid->GetPointData());
-  escape_names(*grid->GetCellData());
-  writer->SetInputData(grid);
+  escape_names(*grid.GetPointData());
+  escape_names(*grid.GetCellData());
+  writer->SetInputData(&grid);
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     ErrorLatchingFilebuf file(temporary);
     writer->set_buffer(file);
     run(*writer, path);
     file.finish();
   });
+}
+
+}  // namespace
+
+void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
+               const MeshWriteOptions& options) {
+  require_vtk_cells(path, mesh);
+  write_vtu(path, *grid_of(mesh, fields, VtkFormat::xml),
+            writes_binary(mesh.content(), options, "vtu"));
+}
+
+void write_vtu(const std::filesystem::path& path, const PlainMesh& mesh) {
+  write_vtu(path, *grid_of(source_of(mesh), {}, VtkFormat::xml, nullptr),
+            writes_binary(mesh.labels.content.get(), {}, "vtu"));
 }
 
 }  // namespace smoothfem

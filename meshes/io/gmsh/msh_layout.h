@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "smoothing/mesh/point.h"
+
+namespace smoothfem {
+
+/// Nodes of one entity: n tags of 64 bits, then n times n_numbers coordinates.
+struct MshNodeBlock {
+  std::uint64_t n = 0, tags_at = 0, points_at = 0;  ///< positions in the file
+  int n_numbers = 3;                                ///< of a node: 3, or more with parameters
+};
+
+/// Elements of one entity and type: n times the tag and the nodes' tags, of 64 bits each.
+struct MshElementBlock {
+  std::uint64_t n, at;
+  int dimension;
+  int group;  ///< the first physical group of the entity; 0: none
+  std::uint32_t n_nodes;
+};
+
+/// Where a binary .msh file of version 4.1 has its nodes and elements, so that several processes
+/// can each read a part of it.
+struct MshLayout {
+  std::vector<MshNodeBlock> nodes{};
+  std::vector<MshElementBlock> elements{};
+  std::uint64_t last_node = 0, last_element = 0;  ///< the largest tags
+  std::string obstacle{};  ///< why the file cannot be read in parts; empty if it can
+};
+
+/// Finds the blocks; reads their headers and the model's entities only. Obstacles are other
+/// versions and encodings, elements of second order, periodic nodes, partitions, tags with large
+/// gaps or above 32 bits, and data that say which nodes must stay. Damaged and missing
+/// files have an obstacle, too: read_mesh() says what is wrong.
+MshLayout msh_layout(const std::filesystem::path& path);
+
+/// Reads parts of a file.
+class FileParts {
+ public:
+  /// Throws InputError.
+  explicit FileParts(const std::filesystem::path& path);
+  ~FileParts();
+  FileParts(const FileParts&) = delete;
+  FileParts& operator=(const FileParts&) = delete;
+
+  std::uint64_t size() const { return size_; }
+  /// Fills `to` with the bytes from this position on. Throws InputError at the end of the file.
+  void read(std::uint64_t position, std::span<char> to) const;
+  /// Reads n numbers in the byte order of this machine.
+  template <class T>
+  std::vector<T> numbers(std::uint64_t position, std::size_t n) const {
+    std::vector<T> result(n);
+    read(position, {reinterpret_cast<char*>(result.data()), n * sizeof(T)});
+    return result;
+  }
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace smoothfem
