@@ -8,7 +8,7 @@ PROGRAM: bin/smoothfem, built from SOURCE. The other programs are yours; a progr
 --parmmg: parmmg_O3 of ParMmg. --mesquite: a program that runs Mesquite's LaplaceWrapper in parallel, called as PROGRAM IN.vtk OUT.vtk laplace N, which
 prints "smoothed in S s"; N: limit of iterations, 0 for the wrapper's own end.
 
-What is compared was fixed before any result was known:
+The rules of the comparison were fixed before it began:
 
 - Meshes: boxes of tetrahedra, of `generate box` with --displacement 0.15; the same coordinates for all programs. Nodes of the boundary stay.
 - Work: cells and their nodes stay (ParMmg with -noinsert -noswap -nosurf). Numbers of nodes and cells are compared with those of the box.
@@ -18,6 +18,8 @@ What is compared was fixed before any result was known:
 - Quality: least and mean of the mean ratio, which `smoothfem quality` prints for the written mesh.
 - Same result on one and two processes: nodes as a set of coordinates, without an order. Numbers count only if all nodes are the same to the digits in
   the files; otherwise the number of nodes without an equal one and the largest distance to the nearest node of the other result are given.
+- Mesquite: LaplaceWrapper with culling and ShapeImprovementWrapper were to be compared, too. In parallel they end with "Inner termination criterion
+  satisfied for all patches without meeting outer termination criterion" on one process; with culling, two processes do not end within a minute.
 - Medians of three runs. The programs and numbers of processes take turns, so that a slow minute of the machine hits all."""
 
 import argparse
@@ -40,7 +42,7 @@ from speed import commit_of, cpu
 
 HEADER = """# Other parallel programs
 
-Output of `./run bench parallel-tools` on {date}, commit {commit}: {cpu}, {cores} cores. `tools/parallel_tools.py` has the rules, which were fixed before: boxes
+Output of `./run bench parallel-tools --edges {edges}` on {date}, commit {commit}: {cpu}, {cores} cores. `tools/parallel_tools.py` has the rules, which were fixed before: boxes
 of tetrahedra, whose nodes inside are displaced by up to 0.15 edges; medians of {repetitions} runs in turn. The programs do different work, so a time alone
 says little:
 
@@ -194,6 +196,7 @@ def measured(tools, path, folder):
 def pages(program, source, tools, edges, folder):
     """Yields the parts of the text."""
     yield HEADER.format(date=date.today(), commit=commit_of(source), cpu=cpu(), cores=os.cpu_count(), repetitions=REPETITIONS,
+                        edges=",".join(map(str, edges)),
                         programs="\n".join(f"- {tool.name}{' (' + tool.version() + ')' if tool.version() else ''} {tool.work}: "
                                            f"`{tool.command(False)}`." for tool in tools),
                         box="`mpirun -np N` starts each. Each process has one thread.")
