@@ -37,7 +37,7 @@ struct MshLayout {
 /// Finds the blocks; reads their headers and the model's entities only. Obstacles are other
 /// versions and encodings, elements of second order, periodic nodes, partitions, tags with large
 /// gaps or above 32 bits, and data that say which nodes must stay. Damaged and missing
-/// files have an obstacle, too: read_mesh() says what is wrong.
+/// files have an obstacle, too: read_mesh() names the fault.
 MshLayout msh_layout(const std::filesystem::path& path);
 
 /// Reads parts of a file.
