@@ -475,6 +475,28 @@ TEST(Parts, FilesReadInBlocksAreWrittenWithTheSameNodes) {
   });
 }
 
+/// Gmsh's partitions and lists of ghost elements stay in the file.
+TEST(Parts, PartitionsStayInFilesReadInBlocks) {
+  const Folder folder;
+  const auto mesh = numbered_mesh();
+  const std::string partitions = "$PartitionedEntities\n" + std::string(1, '\2') +
+                                 std::string(47, '\0') + "\n$EndPartitionedEntities\n",
+                    ghosts = "$GhostElements\n" + std::string(8, '\0') + "\n$EndGhostElements\n";
+  all_ranks().on_root([&] {
+    write_mesh(folder / "whole.msh", mesh, {}, {.binary = true});
+    std::string bytes = content_of(folder / "whole.msh");
+    bytes.insert(bytes.find("$Nodes\n"), partitions);
+    std::ofstream(folder / "divided.msh", std::ios::binary) << bytes << ghosts;
+  });
+  smoothed_pieces(all_ranks(), folder / "whole.msh", folder / "whole_out.msh");
+  smoothed_pieces(all_ranks(), folder / "divided.msh", folder / "divided_out.msh");
+  all_ranks().on_root([&] {
+    std::string expected = content_of(folder / "whole_out.msh");
+    expected.insert(expected.find("$Nodes\n"), partitions);
+    EXPECT_EQ(content_of(folder / "divided_out.msh"), expected + ghosts);
+  });
+}
+
 TEST(Parts, DamagedBlocksAreRefusedOnAllRanks) {
   const Folder folder;
   const auto mesh = numbered_mesh();

@@ -65,13 +65,14 @@ class LayoutScan {
 
  private:
   void visit(const std::string& section) {
-    if (section == "$Entities")
-      visit_entities();
+    if (section == "$Entities" || section == "$PartitionedEntities")
+      visit_entities(section);
     else if (section == "$Nodes")
       visit_nodes();
     else if (section == "$Elements")
       visit_elements();
-    else if (section == "$PhysicalNames" || section == "$Comments")
+    else if (section == "$PhysicalNames" || section == "$Comments" ||
+             section == "$GhostElements")  // these name elements of the file
       at_ = end_of(section);
     else if (section == "$NodeData" || section == "$ElementData")
       visit_data(section);
@@ -87,14 +88,14 @@ class LayoutScan {
     require_end("$MeshFormat");
   }
 
-  void visit_entities() {
-    const std::uint64_t begin = at_, end = end_of("$Entities");
+  void visit_entities(const std::string& section) {
+    const std::uint64_t begin = at_, end = end_of(section);
     const std::int32_t one = 1;  // the reader expects the number that shows the byte order
     std::string content(reinterpret_cast<const char*>(&one), sizeof one);
     content.resize(sizeof one + end - begin);
     file_.read(begin, std::span(content).subspan(sizeof one));
     MshBinaryInput input(path_.string(), content, 0, true);
-    groups_.read_entities(input, false, false);
+    groups_.read_entities(input, section == "$PartitionedEntities", false);
     at_ = end;
   }
 

@@ -35,7 +35,7 @@ struct MshLayout {
 };
 
 /// Finds the blocks; reads their headers and the model's entities only. Obstacles are other
-/// versions and encodings, elements of second order, periodic nodes, partitions, tags with large
+/// versions and encodings, elements of second order, periodic nodes, tags with large
 /// gaps or above 32 bits, and data that say which nodes must stay. Damaged and missing
 /// files have an obstacle, too: read_mesh() names the fault.
 MshLayout msh_layout(const std::filesystem::path& path);
