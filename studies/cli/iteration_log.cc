@@ -13,7 +13,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Returns the lines of a table with this row alone: its columns, and the row.
+/// Returns the lines of a text.
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
@@ -52,7 +52,7 @@ IterationLog::IterationLog(std::filesystem::path path, bool resumes) : path_(std
   earlier_ = lines_of(read_whole_file(path_));
   if (earlier_.empty() || earlier_.front() != columns())
     throw InputError(path_.string() +
-                     " is no log of this program's version, so that --resume cannot go on with it; "
+                     " is not a log of this version, so that --resume cannot go on with it; "
                      "leave --resume out, or give another file name");
   earlier_.erase(earlier_.begin());
   const std::size_t n_fields = csv_fields(columns()).size();
