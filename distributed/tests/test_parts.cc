@@ -185,6 +185,16 @@ TEST(Parts, OneElementAfterTheOtherIsTheThesisMethod) {
             whole.copied_coordinates());
 }
 
+TEST(Parts, SweepsFromNodeToNodeAreRefused) {
+  auto parts =
+      distribute(all_ranks(),
+                 scattered(all_ranks(), two_materials(grid_mesh(6, GridCells::triangles), 0.2, 1)));
+  auto method = make_method<2>("global-optimization");
+  method.set("start_sweeps", "1");
+  EXPECT_THAT([&] { smooth(parts.part, method); },
+              ThrowsMessage<InputError>(HasSubstr("start_sweeps")));
+}
+
 TEST(Parts, MethodsThatNeedTheWholeMeshAreRefused) {
   const auto mesh = two_materials(grid_mesh(6, GridCells::triangles), 0.2, 1);
   EXPECT_THAT([&] { smoothed(all_ranks(), mesh, "energy-descent", true); },

@@ -42,7 +42,7 @@ class GlobalOptimization final : public Smoother<dim> {
     return {.quality_use = best ? QualityUse::loop : QualityUse::none,
             .result = best ? ResultMesh::best_q_mean : ResultMesh::last,
             .takes_targets = true,
-            .works_in_parts = start_sweeps_ == 0};
+            .works_in_parts = true};
   }
   StoppingRule stopping() const override {
     return {.criterion = StoppingRule::Criterion::step_says_so, .max_iterations = max_iterations_};
@@ -52,6 +52,10 @@ class GlobalOptimization final : public Smoother<dim> {
     if (start_sweeps_ > 0 && state.mesh.targets())
       throw InputError(
           "method global-optimization: start_sweeps cannot be used with targets; set it to 0");
+    if (start_sweeps_ > 0 && state.mesh.topology().part())
+      throw InputError(
+          "method global-optimization: start_sweeps visit one node after the other, which does not "
+          "work in parts of a mesh; set it to 0");
     objective_.emplace(state.mesh.shared_topology(), state.mesh.shared_targets(), size_weight_);
     newton_.emplace(*objective_, newton_parameters_, state.mesh.coordinates());
     start_ = start_sweeps_ > 0;
