@@ -278,7 +278,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
                                               std::span<const KeyedCell> candidates) {
     const WholeMesh whole(state.mesh.topology());
     std::vector<std::vector<SentPosition>> of_each(candidates.size());
-    parallel_for(candidates.size(), [&](std::size_t place) {
+    const auto find_positions = [&](std::size_t place) {
       const auto cell = whole.find_cell(candidates[place].cell);
       if (!cell || !whole.owns_cell(*cell)) return;
       NewPositions new_positions;
@@ -289,7 +289,11 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
                      state.cell_quality[*cell]};
         std::copy_n(position.data(), spacedim, sent.x.begin());
       }
-    });
+    };
+    if (regularization_->fits_neighbours())  // sizes at nodes are kept, and candidates share nodes
+      for (std::size_t place = 0; place < candidates.size(); ++place) find_positions(place);
+    else
+      parallel_for(candidates.size(), find_positions);
     std::vector<SentPosition> all;
     for (const auto& some : of_each) all.insert(all.end(), some.begin(), some.end());
     return all;
