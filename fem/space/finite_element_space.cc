@@ -18,7 +18,7 @@ constexpr auto absent = FiniteElementSpace<2>::absent;
 /// Nodes around each local dof, from any cell that has it; their weights are all equal.
 template <int dim>
 void locate_dofs(FiniteElementSpace<dim>& space) {
-  if (!space.vertex_dof.empty()) {  // dofs are nodes; some may have no cell here
+  if (space.in_parts) {  // each dof is a node; short of memory
     std::vector<NodeIndex> node_of(space.n_local);
     for (NodeIndex node = 0; node < space.vertex_dof.size(); ++node)
       if (space.vertex_dof[node] != absent) node_of[space.vertex_dof[node]] = node;
@@ -28,6 +28,10 @@ void locate_dofs(FiniteElementSpace<dim>& space) {
     return;
   }
   std::vector<std::vector<NodeIndex>> nodes(space.n_local);
+  // Nodes of dofs are known only if these are numbered by nodes. Then some dofs may have no cell
+  // here.
+  for (NodeIndex node = 0; node < space.vertex_dof.size(); ++node)
+    if (space.vertex_dof[node] != absent) nodes[space.vertex_dof[node]] = {node};
   for (const auto& group : space.groups) {
     const auto& element = group.element;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
