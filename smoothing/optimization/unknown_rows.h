@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "smoothing/base/parallel.h"
@@ -18,15 +17,14 @@ namespace smoothfem {
 /// over these; others get their owners' values by update().
 class UnknownRows {
  public:
-  /// n rows of a whole mesh.
-  explicit UnknownRows(std::size_t n = 0) : n_(n) {}
+  /// No rows.
+  UnknownRows() = default;
   /// nodes: that of each row.
   UnknownRows(const Topology& topology, const std::vector<NodeIndex>& nodes)
       : n_(nodes.size()), part_(topology.part()), n_nodes_(topology.n_nodes()) {
     if (part_) nodes_ = nodes;
   }
 
-  std::size_t size() const { return n_; }
   /// Null if this is the whole mesh.
   const MeshPart* part() const { return part_; }
 
