@@ -254,8 +254,7 @@ std::shared_ptr<const Topology> make_topology(const Ranks& ranks, int dim, std::
       if (!is_agreed) (void)ranks.any(true);
       throw InputError(
           std::string(error.what()) +
-          " (numbers within a part of the mesh; 'smoothfem check' without mpirun names "
-          "those of the file)");
+          " (numbers within a part of the mesh; 'smoothfem check' names those of the file)");
     } catch (const OtherRankFailed&) {  // its error is thrown on all
     }
   });

@@ -121,6 +121,22 @@ std::size_t number_entries(const Ranks& ranks, NodeDirectory<Entry>& directory,
   return ranks.sum(n);
 }
 
+/// Returns the tag of each number.
+template <class Entry>
+NodeDirectory<std::size_t> tags_by_number(const Ranks& ranks, NodeDirectory<Entry>& directory,
+                                          std::size_t n) {
+  std::vector<GlobalIndex> numbers;
+  std::vector<std::size_t> tags;
+  for (std::size_t i = 0; i < directory.entries().size(); ++i)
+    if (directory.entries()[i].number != no_number) {
+      numbers.push_back(directory.entries()[i].number);
+      tags.push_back(directory.first() + i);
+    }
+  NodeDirectory<std::size_t> result(ranks, n);
+  result.give(numbers, tags, [](std::size_t& kept, std::size_t tag, int) { kept = tag; });
+  return result;
+}
+
 /// Returns the positions of tags among the sorted ones of a rank.
 class Positions {
  public:
@@ -150,7 +166,7 @@ FileBlocks::FileBlocks(const Ranks& ranks, const std::filesystem::path& path)
 }
 
 template <int dim>
-ScatteredMesh<dim> FileBlocks::read_as() {
+ScatteredMesh<dim> FileBlocks::read_as(ReadFor purpose) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(path_.string() + ": " + what);
   };
@@ -196,9 +212,12 @@ ScatteredMesh<dim> FileBlocks::read_as() {
         "a node appears twice, or an element names a node that the file does not have; the file is "
         "damaged");
   if (dim == 2 && ranks_.max(most_z) != -ranks_.max(-least_z))
-    refuse("a surface mesh cannot be smoothed in parts; smooth one file without mpirun");
-  const std::size_t n_nodes =
-      number_entries(ranks_, tagged, [](const TaggedNode& node) { return node.is_used; });
+    refuse("a surface mesh cannot be held in parts; use one file without mpirun");
+  const bool keeps_all = purpose == ReadFor::examination;
+  const auto counts = [&](const TaggedNode& node) {
+    return node.is_used || (keeps_all && node.n_given > 0);
+  };
+  const std::size_t n_nodes = number_entries(ranks_, tagged, counts);
   ScatteredMesh<dim> mesh{.n_cells = ranks_.sum(elements.cells.size()),
                           .cells = std::move(elements.cells),
                           .nodes = NodeDirectory<NodeEntry<dim>>(ranks_, n_nodes),
@@ -207,7 +226,7 @@ ScatteredMesh<dim> FileBlocks::read_as() {
     std::vector<GlobalIndex> numbers;
     std::vector<NodeEntry<dim>> entries;
     for (const TaggedNode& node : tagged.entries())
-      if (node.is_used) {
+      if (counts(node)) {
         numbers.push_back(node.number);
         entries.push_back(
             node_entry<dim>(Point<dim>(node.x.data()),
@@ -229,14 +248,18 @@ ScatteredMesh<dim> FileBlocks::read_as() {
   number_entries(ranks_, cells, [](const TaggedCell& cell) { return cell.n_given > 0; });
   mesh.cells.numbers = cells.ask(mesh.cells.numbers, number_of);
   sort_by_numbers(mesh.cells);
+  if (keeps_all) {
+    mesh.node_ids = tags_by_number(ranks_, tagged, n_nodes);
+    mesh.cell_ids = tags_by_number(ranks_, cells, mesh.n_cells);
+  }
   return mesh;
 }
 
-std::variant<ScatteredMesh<2>, ScatteredMesh<3>> FileBlocks::read() {
+std::variant<ScatteredMesh<2>, ScatteredMesh<3>> FileBlocks::read(ReadFor purpose) {
   if (std::any_of(layout_.elements.begin(), layout_.elements.end(),
                   [](const MshElementBlock& block) { return block.dimension == 3; }))
-    return read_as<3>();
-  return read_as<2>();
+    return read_as<3>(purpose);
+  return read_as<2>(purpose);
 }
 
 template <int dim>

@@ -26,17 +26,17 @@ class FileBlocks {
 
   /// Reads the file, if there is no obstacle. Collective. Throws InputError on all ranks for a
   /// damaged file.
-  std::variant<ScatteredMesh<2>, ScatteredMesh<3>> read();
+  std::variant<ScatteredMesh<2>, ScatteredMesh<3>> read(ReadFor purpose);
 
-  /// Writes the same file with the coordinates in the directory, after read(). All other bytes
-  /// stay. Collective. Throws InputError on all ranks.
+  /// Writes the same file with the coordinates in the directory, after read() for smoothing. All
+  /// other bytes stay. Collective. Throws InputError on all ranks.
   template <int dim>
   void write(const std::filesystem::path& out,
              const NodeDirectory<NodeEntry<dim>>& directory) const;
 
  private:
   template <int dim>
-  ScatteredMesh<dim> read_as();
+  ScatteredMesh<dim> read_as(ReadFor purpose);
 
   Ranks ranks_;
   std::filesystem::path path_;

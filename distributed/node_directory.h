@@ -27,6 +27,7 @@ class NodeDirectory {
   std::size_t n() const { return n_; }
   /// Entries that this rank keeps, and the number of the first one.
   std::vector<Entry>& entries() { return entries_; }
+  const std::vector<Entry>& entries() const { return entries_; }
   std::size_t first() const { return first_of(ranks_.rank()); }
 
   /// Calls merge(kept entry, given entry, rank it comes from) for the entries that ranks give for
@@ -107,13 +108,14 @@ template <int dim>
 struct NodeEntry {
   std::array<double, static_cast<std::size_t>(dim)> x{};
   FixedReasons reasons = 0;
-  int owner = -1;
+  static constexpr int not_given = -1, given = -2;
+  int owner = not_given;  ///< a rank, or given: no rank owns it yet; or no file has the node
 
   Point<dim> point() const { return Point<dim>(x.data()); }
 };
 template <int dim>
 NodeEntry<dim> node_entry(const Point<dim>& point, FixedReasons reasons) {
-  NodeEntry<dim> entry{.reasons = reasons};
+  NodeEntry<dim> entry{.reasons = reasons, .owner = NodeEntry<dim>::given};
   for (std::size_t d = 0; d < dim; ++d) entry.x[d] = point[static_cast<Eigen::Index>(d)];
   return entry;
 }

@@ -113,6 +113,9 @@ ScatteredMesh<dim> balanced(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   if (ranks.size() == 1 || (mesh.is_compact && static_cast<double>(most) * ranks.size() <=
                                                    tolerance * static_cast<double>(mesh.n_cells)))
     return mesh;
+  if (mesh.n_cells < static_cast<std::size_t>(ranks.size()))
+    throw InputError("the mesh has fewer cells (" + std::to_string(mesh.n_cells) +
+                     ") than mpirun has started processes; start fewer");
   const auto runs = make_runs(mesh);
   const std::vector<int> to = bisected(ranks, runs, ranks.size());
   std::vector<std::vector<GlobalIndex>> sent(static_cast<std::size_t>(ranks.size()));

@@ -9,6 +9,7 @@ namespace smoothfem {
 /// Moves cells between ranks until each has about as many as any other. Cells that lie near each
 /// other come to the same rank: Zoltan bisects the mesh by coordinates, recursively. Cells stay
 /// where they are if no rank has more than 1.05 times its share. Collective.
+/// Throws InputError on all ranks if these are more than the cells.
 template <int dim>
 ScatteredMesh<dim> balanced(const Ranks& ranks, ScatteredMesh<dim> mesh);
 

@@ -27,6 +27,7 @@ struct ReadPiece {
   std::vector<std::int64_t> cells{};    ///< numbers of its cells; empty if the file has none
   std::vector<Point<3>> points{};
   std::vector<FixedReasons> reasons{};
+  std::vector<std::size_t> node_ids{}, cell_ids{};  ///< of a whole mesh, for an examination
   int dim = 0;
   bool has_marks = false;
 };
@@ -85,19 +86,28 @@ void add_reasons(const MeshParts& parts, int dim, std::vector<FixedReasons>& rea
       if ((*parts.fixed)[i]) reasons[i] |= bit(FixedReason::marked);
 }
 
+/// Returns the file's numbers of nodes or cells, or their order where it has none.
+std::vector<std::size_t> ids_to_show(std::vector<std::size_t> ids, std::size_t n) {
+  ids.resize(n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    if (ids[i] == 0) ids[i] = i;
+  return ids;
+}
+
 /// Takes the parts of a piece; appends its cells with node indices that begin at first_node.
 ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::size_t first_node,
-                     CellTable& table) {
-  if (parts.leaves_out_unused_nodes) drop_unused_nodes(parts);  // as read_mesh() does
+                     CellTable& table, ReadFor purpose) {
+  if (parts.leaves_out_unused_nodes && purpose == ReadFor::smoothing)
+    drop_unused_nodes(parts);  // as read_mesh() does
   ReadPiece piece{.dim = dimension_of(parts)};
   const auto refuse = [&](const std::string& what) {
     throw InputError(path.string() + ": " + what);
   };
   if (piece.dim == 2 && !is_planar(parts))
-    refuse("a surface mesh cannot be smoothed in parts; smooth one file without mpirun");
+    refuse("a surface mesh cannot be held in parts; use one file without mpirun");
   const ElementList& cells = parts.elements[static_cast<std::size_t>(piece.dim)];
   if (!cells.midside.empty())
-    refuse("a mesh of second order cannot be smoothed in parts; smooth one file without mpirun");
+    refuse("a mesh of second order cannot be held in parts; use one file without mpirun");
   std::vector<GlobalIndex> row;
   for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
     row.clear();
@@ -112,6 +122,10 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
   add_reasons(parts, piece.dim, piece.reasons);
   piece.has_marks = parts.fixed && !parts.fixes_boundary_as_well;
   piece.points = std::move(parts.coordinates);
+  if (purpose == ReadFor::examination) {
+    piece.node_ids = ids_to_show(std::move(parts.node_ids), piece.points.size());
+    piece.cell_ids = ids_to_show(cells.ids, cells.nodes.size());
+  }
   return piece;
 }
 
@@ -174,7 +188,7 @@ template <int dim>
 ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& path,
                              const std::vector<std::vector<GlobalIndex>>& numbers,
                              std::vector<ReadPiece> pieces, CellTable cells, bool numbers_cells,
-                             bool fixes_boundary) {
+                             bool fixes_boundary, bool keeps_ids) {
   double largest = 0.0;
   for (const auto& of_piece : numbers)
     for (const GlobalIndex number : of_piece) largest = std::max<double>(largest, number);
@@ -196,6 +210,19 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& pa
     const auto first = static_cast<GlobalIndex>(ranks.exclusive_scan(mesh.cells.size()));
     for (GlobalIndex& number : mesh.cells.numbers) number += first;
   }
+  if (keeps_ids) {
+    const auto keep = [&](std::size_t n, const std::vector<GlobalIndex>& of_rank,
+                          const std::vector<std::size_t>& ids) {
+      NodeDirectory<std::size_t> kept(ranks, n);
+      kept.give(of_rank, ids, [](std::size_t& entry, std::size_t id, int) { entry = id; });
+      return kept;
+    };
+    const bool has_piece = !pieces.empty();
+    mesh.node_ids = keep(mesh.nodes.n(), has_piece ? numbers[0] : std::vector<GlobalIndex>(),
+                         has_piece ? pieces[0].node_ids : std::vector<std::size_t>());
+    mesh.cell_ids = keep(mesh.n_cells, mesh.cells.numbers,
+                         has_piece ? pieces[0].cell_ids : std::vector<std::size_t>());
+  }
   std::vector<GlobalIndex> given;
   std::vector<NodeEntry<dim>> entries;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -206,12 +233,11 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& pa
     pieces[k] = {};
   }
   std::size_t n_torn = 0;
-  constexpr int known = -2;
   mesh.nodes.give(given, entries, [&](NodeEntry<dim>& kept, const NodeEntry<dim>& node, int) {
-    n_torn += kept.owner == known && kept.x != node.x;
+    n_torn += kept.owner == NodeEntry<dim>::given && kept.x != node.x;
     kept.x = node.x;
     kept.reasons |= node.reasons;
-    kept.owner = known;
+    kept.owner = NodeEntry<dim>::given;
   });
   if (const std::size_t n = ranks.sum(n_torn); n > 0)
     throw InputError(path.string() + ": " + std::to_string(n) +
@@ -268,12 +294,14 @@ std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces) {
   return (n_pieces * static_cast<std::size_t>(rank) + size - 1) / size;
 }
 
-std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
+std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) const {
   if (!is_list(path_)) {
     auto& blocks = blocks_.emplace(ranks_, path_);
-    if (blocks.obstacle().empty()) return blocks.read();
+    if (blocks.obstacle().empty()) return blocks.read(purpose);
     if (ranks_.size() > 1)
-      notes_.push_back("the first process alone reads and writes the file: " + blocks.obstacle());
+      notes_.push_back(std::string("the first process alone reads ") +
+                       (purpose == ReadFor::smoothing ? "and writes " : "") +
+                       "the file: " + blocks.obstacle());
     blocks_.reset();
   }
   std::vector<ReadPiece> pieces;
@@ -283,7 +311,7 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
     for (std::size_t p = first_piece(); p < last_piece(); ++p) {
       MeshParts parts = read_mesh_parts(files_[p]);
       if (!is_list(path_)) notes_.insert(notes_.end(), parts.notes.begin(), parts.notes.end());
-      pieces.push_back(take_piece(files_[p], std::move(parts), n_nodes, cells));
+      pieces.push_back(take_piece(files_[p], std::move(parts), n_nodes, cells, purpose));
       if (!is_list(path_)) {  // all nodes are here; two of them may lie in one place
         pieces.back().numbers.resize(pieces.back().points.size());
         std::iota(pieces.back().numbers.begin(), pieces.back().numbers.end(), std::int64_t{0});
@@ -305,9 +333,10 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
              any_marks = any([](const ReadPiece&p) { return p.has_marks; });
   if (any_planar && any_volume)
     throw InputError(path_.string() + ": some pieces are planar and others have volume cells");
-  if (any([](const ReadPiece& p) { return p.numbers.size() != p.points.size(); }) ||
-      are_sparse(ranks_, pieces))
-    number_by_coordinates(ranks_, pieces);
+  const bool joins_places =
+      any([](const ReadPiece& p) { return p.numbers.size() != p.points.size(); }) ||
+      are_sparse(ranks_, pieces);
+  if (joins_places) number_by_coordinates(ranks_, pieces);
   const bool numbers_cells = !any([](const ReadPiece& p) { return p.cells.empty(); });
   const auto is_bad = [](std::int64_t number) {
     return number < 0 || number >= std::numeric_limits<GlobalIndex>::max();
@@ -327,8 +356,11 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read() const {
   for (GlobalIndex& corner : cells.corners) corner = all[corner];
   all = {};
   const auto make = [&]<int dim>() {
-    return scattered<dim>(ranks_, path_, nodes_, std::move(pieces), std::move(cells), numbers_cells,
-                          !any_marks);
+    auto mesh =
+        scattered<dim>(ranks_, path_, nodes_, std::move(pieces), std::move(cells), numbers_cells,
+                       !any_marks, purpose == ReadFor::examination && !is_list(path_));
+    mesh.joins_places = joins_places;
+    return mesh;
   };
   if (any_volume) return make.template operator()<3>();
   return make.template operator()<2>();

@@ -33,9 +33,9 @@ class Pieces {
 
   static bool is_list(const std::filesystem::path& path) { return path.extension() == ".pvtu"; }
 
-  /// Reads all pieces. The variant is that of their cells' dimension. Collective. Throws
-  /// InputError.
-  std::variant<ScatteredMesh<2>, ScatteredMesh<3>> read() const;
+  /// Reads all pieces. The variant is that of their cells' dimension. Only a mesh that is read for
+  /// smoothing can be written. Collective. Throws InputError.
+  std::variant<ScatteredMesh<2>, ScatteredMesh<3>> read(ReadFor purpose = ReadFor::smoothing) const;
 
   /// Returns why the first rank alone has read the file, and what it has left out, one sentence
   /// each. Same on all ranks.

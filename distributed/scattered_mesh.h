@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "distributed/cell_table.h"
 #include "distributed/node_directory.h"
 
 namespace smoothfem {
+
+/// What a mesh is read for. An examination needs the numbers of the file, and nodes that no element
+/// uses.
+enum class ReadFor { smoothing, examination };
 
 /// Cells of a mesh that lie on the ranks in any way, each on one of them, and its nodes.
 template <int dim>
@@ -15,6 +21,10 @@ struct ScatteredMesh {
   NodeDirectory<NodeEntry<dim>> nodes;
   bool fixes_boundary = true;  ///< nodes on the boundary stay
   bool is_compact = true;      ///< cells of a rank lie together, so that they may stay on it
+  bool joins_places = false;   ///< nodes of equal coordinates have become one
+  /// The file's numbers of nodes and cells, for an examination; empty if these are the numbers in
+  /// the whole mesh.
+  std::optional<NodeDirectory<std::size_t>> node_ids{}, cell_ids{};
 };
 
 }  // namespace smoothfem

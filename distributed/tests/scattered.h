@@ -23,7 +23,7 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const Mesh<dim>& mesh) {
     entries.push_back(node_entry<dim>(mesh.coordinates()[i], 0));
   }
   result.nodes.give(numbers, entries,
-                    [](NodeEntry<dim>& kept, const NodeEntry<dim>& node, int) { kept.x = node.x; });
+                    [](NodeEntry<dim>& kept, const NodeEntry<dim>& node, int) { kept = node; });
   return result;
 }
 

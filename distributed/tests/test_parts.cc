@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mpi.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,6 +15,7 @@
 #include "distributed/pieces.h"
 #include "distributed/split.h"
 #include "distributed/tests/scattered.h"
+#include "distributed/tests/shared_folder.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/smooth.h"
@@ -213,6 +213,13 @@ TEST(Parts, BalancedPartsHaveEqualShares) {
   EXPECT_TRUE(std::is_sorted(shared.cells.numbers.begin(), shared.cells.numbers.end()));
 }
 
+TEST(Parts, EachRankNeedsACell) {
+  if (all_ranks().size() == 1) return;
+  auto mesh = scattered(all_ranks(), grid_mesh(1, GridCells::quadrilaterals));
+  EXPECT_THAT([&] { (void)balanced(all_ranks(), std::move(mesh)); },
+              ThrowsMessage<InputError>(HasSubstr("fewer cells (1) than mpirun has started")));
+}
+
 TEST(Parts, TablesMergeInOrder) {
   CellTable table, others;
   const std::vector<GlobalIndex> triangle{1, 2, 3}, quadrilateral{4, 5, 6, 7};
@@ -239,23 +246,8 @@ TEST(Parts, NumberSetsKnowPositions) {
   EXPECT_EQ(set.position(199), 4u);
 }
 
-/// A folder that the root makes and removes.
-class Folder {
- public:
-  Folder() {
-    long number = ::getpid();
-    all_ranks().broadcast(number);
-    path_ = fs::temp_directory_path() / ("smoothfem_parts_" + std::to_string(number));
-    all_ranks().on_root([&] { fs::create_directories(path_); });
-  }
-  ~Folder() {
-    (void)all_ranks().any(false);
-    if (all_ranks().is_root()) fs::remove_all(path_);
-  }
-  fs::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_;
+struct Folder : test::SharedFolder {
+  Folder() : SharedFolder("smoothfem_parts") {}
 };
 
 std::string content_of(const fs::path& path) {

@@ -19,9 +19,6 @@
 
 namespace smoothfem {
 
-namespace {
-
-/// True if a mesh would count the cell as invalid. Cells in space have their own mean normal.
 bool is_invalid(const PlainCells& cells, std::span<const NodeIndex> nodes) {
   const auto at = [&](NodeIndex node) -> const Point<3>& { return cells.points[node]; };
   bool invalid = false;
@@ -35,36 +32,22 @@ bool is_invalid(const PlainCells& cells, std::span<const NodeIndex> nodes) {
   return invalid;
 }
 
+namespace {
+
 void add_directions(Findings& findings, const FacetTable& table) {
   const PlainCells& cells = findings.cells();
   const Orientation orientation = find_reversed_cells(cells, table);
   const auto& reversed = orientation.reversed;
-  if (!reversed.empty()) {
-    auto finding = findings.at_cell(FindingKind::reversed_cells, reversed.size(), reversed[0]);
-    finding.is_repairable = true;
-    findings.add(finding,
-                 count_of(reversed.size(), "cell") +
-                     (reversed.size() == 1 ? " lists its" : " list their") +
-                     " nodes in the wrong direction, which is the only fault",
-                 "'smoothfem repair' turns such cells over, and so do all commands that read the "
-                 "file");
-  }
+  if (!reversed.empty())
+    findings.add(findings.at_cell(FindingKind::reversed_cells, reversed.size(), reversed[0]));
   if (orientation.one_sided)
-    findings.add(findings.at_cell(FindingKind::one_sided, 1, *orientation.one_sided),
-                 "a piece of the mesh has no upper side, like a Moebius strip",
-                 "cut it in the mesh generator");
+    findings.add(findings.at_cell(FindingKind::one_sided, 1, *orientation.one_sided));
   const auto right = with_reversed(cells.dim, cells.cells, reversed);
   std::size_t n_folded = 0;
   CellIndex first = 0;
   for (CellIndex c = 0; c < right.size(); ++c)
     if (is_invalid(cells, right[c]) && n_folded++ == 0) first = c;
-  if (n_folded > 0)
-    findings.add(findings.at_cell(FindingKind::folded_cells, n_folded, first),
-                 count_of(n_folded, "cell") + (n_folded == 1 ? " is" : " are") +
-                     " folded, flat or not convex, whatever the direction of " +
-                     (n_folded == 1 ? "its" : "their") + " nodes",
-                 cells.dim == 2 && !cells.planar ? "repair the surface in the mesh generator"
-                                                 : "'smoothfem smooth --untangle' may help");
+  if (n_folded > 0) findings.add(findings.at_cell(FindingKind::folded_cells, n_folded, first));
 }
 
 /// Adds cells of second order that are not proven valid, although their corners make valid cells.
@@ -136,11 +119,7 @@ void add_crowded_facets(Findings& findings, const FacetTable& table) {
   if (count == 0) return;
   auto finding = findings.at_node(FindingKind::crowded_facets, count, first);
   finding.cell = findings.numbers().cell(cell);
-  findings.add(
-      finding,
-      count_of(count, findings.facet_name()) +
-          (count == 1 ? " belongs to three or more cells" : " belong to three or more cells each"),
-      "separate the pieces there in the mesh generator");
+  findings.add(finding);
 }
 
 /// Adds cells that name a node twice, and cells with the nodes of another one. Returns the rest.
@@ -149,18 +128,9 @@ std::vector<bool> add_unusable_cells(Findings& findings) {
   const auto collapsed = collapsed_cells(cells.cells);
   const auto doubled = doubled_cells(cells.cells);
   if (!collapsed.empty())
-    findings.add(findings.at_cell(FindingKind::collapsed_cells, collapsed.size(), collapsed[0]),
-                 count_of(collapsed.size(), "cell") +
-                     (collapsed.size() == 1 ? " names a node twice" : " name a node twice"),
-                 "remove them, or list them as cells with fewer nodes");
-  if (!doubled.empty()) {
-    auto finding = findings.at_cell(FindingKind::doubled_cells, doubled.size(), doubled[0]);
-    finding.is_repairable = true;
-    findings.add(finding,
-                 count_of(doubled.size(), "cell") + (doubled.size() == 1 ? " has" : " have") +
-                     " the same nodes as another cell",
-                 "'smoothfem repair' removes the later ones");
-  }
+    findings.add(findings.at_cell(FindingKind::collapsed_cells, collapsed.size(), collapsed[0]));
+  if (!doubled.empty())
+    findings.add(findings.at_cell(FindingKind::doubled_cells, doubled.size(), doubled[0]));
   std::vector<bool> usable(cells.cells.size(), true);
   for (const auto* unusable : {&collapsed, &doubled})
     for (const CellIndex c : *unusable) usable[c] = false;
@@ -177,11 +147,7 @@ void add_unused_nodes(Findings& findings, const CompressedRows<NodeIndex>& midsi
   if (count == 0) return;
   const auto first =
       static_cast<NodeIndex>(std::find(used.begin(), used.end(), false) - used.begin());
-  auto finding = findings.at_node(FindingKind::unused_nodes, count, first);
-  finding.is_repairable = true;
-  findings.add(finding,
-               count_of(count, "node") + (count == 1 ? " belongs" : " belong") + " to no cell",
-               "'smoothfem repair' drops such nodes");
+  findings.add(findings.at_node(FindingKind::unused_nodes, count, first));
 }
 
 /// Cells of which a mesh can be made, with their numbers.

@@ -24,13 +24,11 @@ std::vector<bool> add_seams(Findings& findings, const Skin& skin) {
   if (coincident.count > 0) {
     NodeIndex node = 0;
     while (coincident.is_first(node)) ++node;
-    auto finding = findings.at_node(FindingKind::coincident_nodes, coincident.count, node);
-    finding.is_repairable = true;
     const std::string joined = coincident.n_joined == 0
                                    ? ""
                                    : ", so that " + count_of(coincident.n_joined, "pair") + " of " +
                                          facet + "s form a seam that is not joined";
-    findings.add(finding,
+    findings.add(findings.at_node(FindingKind::coincident_nodes, coincident.count, node),
                  count_of(coincident.count, "coincident node") +
                      (coincident.count == 1 ? " lies" : " lie") + " where another node lies" +
                      joined,

@@ -33,6 +33,18 @@ struct FileNumbers {
   }
 };
 
+/// The beginning and the end of a finding's sentence.
+struct FaultText {
+  std::string fault, remedy;
+};
+
+/// Returns the texts of the kinds whose sentence depends on nothing but their count and the kind of
+/// mesh: those of examine() that no other examination shares.
+FaultText text_of(FindingKind kind, std::size_t count, int dim, bool planar);
+
+/// True if repair() removes faults of this kind.
+bool is_repairable(FindingKind kind);
+
 /// Collects findings about cells.
 class Findings {
  public:
@@ -46,11 +58,11 @@ class Findings {
   /// Returns a finding without a sentence whose first place is a node, or a cell.
   Finding at_node(FindingKind kind, std::size_t count, NodeIndex node) const {
     const Point<3> at = numbers_.place(cells_.points[node]);
-    return {kind, count, at, std::nullopt, numbers_.node(node), {}, false};
+    return {kind, count, at, std::nullopt, numbers_.node(node), {}, is_repairable(kind)};
   }
   Finding at_cell(FindingKind kind, std::size_t count, CellIndex cell) const {
     const Point<3> at = numbers_.place(cells_.points[cells_.cells[cell][0]]);
-    return {kind, count, at, numbers_.cell(cell), std::nullopt, {}, false};
+    return {kind, count, at, numbers_.cell(cell), std::nullopt, {}, is_repairable(kind)};
   }
 
   /// Adds a finding. Its sentence says the fault, the first place and the remedy.
@@ -63,6 +75,13 @@ class Findings {
     place += "at " + place_text(finding.at, cells_.planar && !numbers_.plane);
     finding.sentence = fault + "; " + place + "; " + remedy;
     all_.push_back(std::move(finding));
+  }
+
+  /// As above, with the texts of its kind.
+  void add(Finding finding) {
+    const auto [fault, remedy] =
+        text_of(finding.kind, finding.count, cells_.dim, cells_.dim == 2 && cells_.planar);
+    add(std::move(finding), fault, remedy);
   }
 
   std::vector<Finding> take() && { return std::move(all_); }

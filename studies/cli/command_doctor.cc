@@ -8,6 +8,7 @@
 #include "meshes/doctor/repair.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/mesh_notes.h"
+#include "studies/cli/piece_commands.h"
 #include "studies/cli/standard_streams.h"
 
 namespace smoothfem {
@@ -76,16 +77,31 @@ void show_json(const std::string& path, const Examination& seen) {
                                  {"n_pieces", seen.n_pieces},
                                  {"findings", nlohmann::ordered_json::array()}};
   for (const Finding& finding : seen.findings) json["findings"].push_back(json_of(finding));
+  if (!seen.not_looked_for.empty()) json["not_looked_for"] = seen.not_looked_for;
   std::printf("%s\n", json.dump(2).c_str());
 }
 
 void show_text(const std::string& path, const Examination& seen) {
   std::printf("%s: %s\n", path.c_str(), summary_text(seen).c_str());
   for (const Finding& finding : seen.findings) std::printf("- %s\n", finding.sentence.c_str());
-  if (seen.findings.empty()) std::printf("nothing is wrong\n");
+  for (const std::string& sentence : seen.not_looked_for) std::printf("%s\n", sentence.c_str());
+  if (seen.findings.empty())
+    std::printf(seen.not_looked_for.empty() ? "nothing is wrong\n"
+                                            : "nothing is wrong in what was looked for\n");
+}
+
+/// As check(), on all processes of mpirun.
+void check_parts(const DoctorArguments& arguments) {
+  if (arguments.in == "-")
+    throw InputError("processes cannot share standard input; give a file, or leave mpirun out");
+  Examination seen;
+  if (examine_pieces(arguments.in, seen))
+    (arguments.json ? show_json : show_text)(arguments.in, seen);
+  if (!seen.findings.empty()) throw ExitCode{something_found};
 }
 
 void check(const DoctorArguments& arguments) {
+  if (works_in_parts("")) return check_parts(arguments);
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
   MeshParts parts = read_mesh_parts(input ? input->path() : std::filesystem::path(arguments.in));
   const Examination seen = about_file(arguments.in, [&] {

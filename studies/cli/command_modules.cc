@@ -16,8 +16,8 @@ constexpr const char* piece_module = "smoothfem_piece_commands.so";
 
 /// Calls a function of the module of meshes in pieces.
 template <class... Arguments>
-void call_on_pieces(const char* function, const Arguments&... arguments) {
-  reinterpret_cast<void (*)(const Arguments&...)>(function_of_module(piece_module, function))(
+void call_on_pieces(const char* function, Arguments&... arguments) {
+  reinterpret_cast<void (*)(Arguments & ...)>(function_of_module(piece_module, function))(
       arguments...);
 }
 
@@ -53,6 +53,11 @@ void smooth_pieces(const SmoothArguments& arguments) {
 }
 void report_pieces(const std::string& mesh, bool as_json) {
   call_on_pieces("smoothfem_report_pieces", mesh, as_json);
+}
+bool examine_pieces(const std::string& mesh, Examination& seen) {
+  bool is_first = true;
+  call_on_pieces("smoothfem_examine_pieces", mesh, seen, is_first);
+  return is_first;
 }
 void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& out) {
   call_on_pieces("smoothfem_split_mesh", mesh, n_pieces, out);

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "distributed/box.h"
+#include "distributed/examine_parts.h"
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
 #include "distributed/split.h"
@@ -23,6 +24,7 @@
 #include "studies/cli/commands.h"
 #include "studies/cli/configured_method.h"
 #include "studies/cli/iteration_log.h"
+#include "studies/cli/mesh_notes.h"
 #include "studies/cli/piece_commands.h"
 
 namespace smoothfem {
@@ -379,6 +381,24 @@ void smoothfem_report_pieces(const std::string& mesh, const bool& as_json) {
           if (quality.n_invalid > 0) throw ExitCode{2};
         },
         scattered);
+  });
+}
+
+void smoothfem_examine_pieces(const std::string& mesh, smoothfem::Examination& seen,
+                              bool& is_first) {
+  using namespace smoothfem;
+  on_ranks([&](const Ranks& ranks) {
+    share_cores(0);
+    is_first = ranks.is_root();
+    const Pieces pieces(ranks, mesh);
+    auto scattered = pieces.read(ReadFor::examination);
+    if (is_first) print_notes(mesh, pieces.notes());
+    try {
+      seen = std::visit([&](auto& of_dim) { return examine_parts(ranks, std::move(of_dim)); },
+                        scattered);
+    } catch (const InputError& error) {
+      throw InputError(mesh + ": " + error.what());
+    }
   });
 }
 

@@ -12,6 +12,7 @@
 
 namespace smoothfem {
 
+struct Examination;
 struct PoissonOptions;
 
 /// The user's arguments of `generate box`.
@@ -35,6 +36,9 @@ bool is_first_process();
 void smooth_pieces(const SmoothArguments& arguments);
 void report_pieces(const std::string& mesh, bool as_json);
 void generate_box(const BoxArguments& arguments);
+/// Examines a mesh in parts (distributed/examine_parts.h). False for all processes but one, which
+/// has the result.
+bool examine_pieces(const std::string& mesh, Examination& seen);
 /// Writes a whole mesh in pieces (distributed/split.h).
 void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& out);
 
@@ -44,6 +48,8 @@ void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& ou
 extern "C" {
 void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments);
 void smoothfem_report_pieces(const std::string& mesh, const bool& as_json);
+void smoothfem_examine_pieces(const std::string& mesh, smoothfem::Examination& seen,
+                              bool& is_first);
 void smoothfem_generate_box(const smoothfem::BoxArguments& arguments);
 void smoothfem_split_mesh(const smoothfem::AnyMesh& mesh, const std::size_t& n_pieces,
                           const std::string& out);

@@ -71,14 +71,11 @@ FacetTable::FacetTable(const PlainCells& cells) {
     });
 }
 
-Skin skin_of(const PlainCells& cells, const FacetTable& table) {
-  std::vector<std::pair<CellIndex, std::uint32_t>> facets;
-  table.for_each([&](NodeIndex, std::span<const CellFacet> group) {
-    if (group.size() == 1) facets.emplace_back(group[0].cell, group[0].position);
-  });
-  std::sort(facets.begin(), facets.end());
+Skin skin_of(const PlainCells& cells,
+             std::vector<std::pair<CellIndex, std::uint32_t>> cells_and_positions) {
+  std::sort(cells_and_positions.begin(), cells_and_positions.end());
   Skin skin;
-  for (const auto& [cell, wanted] : facets) {
+  for (const auto& [cell, wanted] : cells_and_positions) {
     for_each_facet_of(
         cells.dim, cells.cells[cell],
         [&, wanted = wanted](std::uint32_t position, std::span<const NodeIndex> nodes) {
@@ -88,6 +85,14 @@ Skin skin_of(const PlainCells& cells, const FacetTable& table) {
   }
   set_nodes(skin, cells.points.size());
   return skin;
+}
+
+Skin skin_of(const PlainCells& cells, const FacetTable& table) {
+  std::vector<std::pair<CellIndex, std::uint32_t>> facets;
+  table.for_each([&](NodeIndex, std::span<const CellFacet> group) {
+    if (group.size() == 1) facets.emplace_back(group[0].cell, group[0].position);
+  });
+  return skin_of(cells, std::move(facets));
 }
 
 Skin skin_of(const Topology& topology) {

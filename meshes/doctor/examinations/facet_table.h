@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "meshes/io/mesh_assembly.h"
@@ -74,5 +75,8 @@ struct Skin {
 };
 Skin skin_of(const PlainCells& cells, const FacetTable& table);
 Skin skin_of(const Topology& topology);
+/// As above, of facets that are known: cell and position of each, in any order.
+Skin skin_of(const PlainCells& cells,
+             std::vector<std::pair<CellIndex, std::uint32_t>> cells_and_positions);
 
 }  // namespace smoothfem

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "fem/tests/all_ranks.h"
+
+namespace smoothfem::test {
+
+/// A folder that the root makes and removes.
+class SharedFolder {
+ public:
+  explicit SharedFolder(const std::string& name) {
+    long number = ::getpid();
+    all_ranks().broadcast(number);
+    path_ = std::filesystem::temp_directory_path() / (name + "_" + std::to_string(number));
+    all_ranks().on_root([&] { std::filesystem::create_directories(path_); });
+  }
+  ~SharedFolder() {
+    (void)all_ranks().any(false);
+    if (all_ranks().is_root()) std::filesystem::remove_all(path_);
+  }
+  SharedFolder(const SharedFolder&) = delete;
+  SharedFolder& operator=(const SharedFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace smoothfem::test
