@@ -235,6 +235,50 @@ TEST_F(MshOfPartitions, IsReadByGmshAfterwards) {
   });
 }
 
+/// Copies of elements do not count, and neither do the elements between partitions.
+TEST_F(MshOfPartitions, IsTheMeshWithoutPartitions) {
+  for (const int is_binary : {0, 1})
+    for (const int has_topology : {0, 1}) {
+      GmshSession session;
+      session.set_option("Mesh.MeshSizeMax", 0.3);
+      session.set_option("Mesh.PartitionCreateGhostCells", 1);
+      session.set_option("Mesh.Binary", is_binary);
+      session.set_option("Mesh.PartitionCreateTopology", has_topology);
+      session.run("model", [&] {
+        build_layers_and_tetrahedra();
+        gmsh::write(file("whole.msh").string());
+        gmsh::model::mesh::partition(3);
+        gmsh::write(file("divided.msh").string());
+      });
+      const auto read = [&](const char* name) {
+        return std::get<VolumeMesh>(read_mesh(file(name)).mesh);
+      };
+      const VolumeMesh whole = read("whole.msh"), divided = read("divided.msh");
+      EXPECT_EQ(divided.copied_coordinates(), whole.copied_coordinates());
+      EXPECT_EQ(elements_in(divided), elements_in(whole));
+      EXPECT_EQ(facets_of(divided), facets_of(whole));
+      EXPECT_EQ(divided.topology().fixed_reasons(), whole.topology().fixed_reasons());
+    }
+}
+
+TEST_F(MshOfPartitions, OneFileOfSeveralIsReadWithANote) {
+  for (const double version : {4.1, 2.2}) {
+    GmshSession session;
+    session.set_option("Mesh.MeshSizeMax", 0.3);
+    session.set_option("Mesh.PartitionSplitMeshFiles", 1);
+    session.set_option("Mesh.MshFileVersion", version);
+    session.run("model", [&] {
+      build_layers_and_tetrahedra();
+      gmsh::model::mesh::partition(3);
+      gmsh::write(file("all.msh").string());
+    });
+    EXPECT_THAT(read_mesh(file("all_2.msh")).notes,
+                ::testing::Contains(::testing::HasSubstr(
+                    version > 3.0 ? "part 2 of the 3 parts of a mesh, and only this part is read"
+                                  : "all elements are of partition 2; if Gmsh has split")));
+  }
+}
+
 // --- Files that smoothfem writes -----------------------------------------------------------------
 
 class MshForGmsh : public FileTest, public ::testing::WithParamInterface<Variant> {

@@ -104,6 +104,7 @@ void check(const DoctorArguments& arguments) {
   if (works_in_parts("")) return check_parts(arguments);
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
   MeshParts parts = read_mesh_parts(input ? input->path() : std::filesystem::path(arguments.in));
+  print_notes(arguments.in, parts.notes);
   const Examination seen = about_file(arguments.in, [&] {
     lay_usable_points_into_plane(parts);
     return examine(parts);

@@ -53,6 +53,16 @@ TEST_F(Doctored, CheckFindsWhatRepairRepairs) {
   EXPECT_EQ(smoothfem({"repair", "bad.vtk", "-o", "out.vtk"}).exit_code, 2);
 }
 
+TEST_F(Doctored, ProcessesTogetherFindWhatOneFinds) {
+  seam();
+  for (const std::vector<std::string>& line :
+       {std::vector<std::string>{"check", "seam.vtk"}, {"check", "seam.vtk", "--json"}}) {
+    const Outcome alone = smoothfem(line), together = smoothfem_on_ranks(2, line);
+    EXPECT_EQ(together.exit_code, 1) << together.err;
+    EXPECT_EQ(together.out, alone.out);
+  }
+}
+
 TEST_F(Doctored, SmoothMergesIfAskedAndSaysWhatItChanges) {
   seam();
   const std::vector<std::string> line{"smooth", "seam.vtk", "-m", "getme", "-o", "out.vtu"};

@@ -14,7 +14,8 @@ namespace smoothfem {
 /// periodic nodes, node and element data, and the text of other sections. The first of several
 /// groups of an entity is the tag of its elements. Version 2 repeats an element for each of its
 /// groups; such elements are joined, and the numbers and data of their rows are kept. Parametric
-/// coordinates, partitions and ghost elements are left out, with a note. Memory is a small multiple
+/// coordinates, partitions and ghost elements are left out, with a note. Another note says that the
+/// file is one of those into which Gmsh has split a mesh. Memory is a small multiple
 /// of the file's size, whatever counts it announces.
 ///
 /// Throws InputError "path:line: message" ("path: at byte N: ..." for binary files). Causes: other

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -33,8 +35,15 @@ std::uint64_t msh_count_in_text(Input& in, const char* what) {
   return n;
 }
 
+/// One part of a mesh that Gmsh has split into files, one for each partition.
+struct MshPart {
+  int number = 0;           ///< from 1
+  std::uint64_t n_all = 0;  ///< parts of the mesh
+};
+
 /// The physical groups of a .msh file: their names and, in version 4, the groups of the model's
-/// entities, which apply to their elements.
+/// entities, which apply to their elements. Entities that Gmsh has made between partitions have no
+/// group: there they would repeat that of the cells.
 class MshGroups {
  public:
   /// Reads $PhysicalNames: lines 'dimension tag "name"', in version 2.0 also 'tag "name"'. The
@@ -91,28 +100,35 @@ class MshGroups {
       in.find_value("the end of the entities");
       return in.count("a count of the entities");
     };
-    const auto skip_integers = [&](std::uint64_t n) {
-      while (n-- > 0) integer();
-    };
     if (is_partitioned) {
-      count();                                              // partitions
-      for (auto n = count(); n > 0; --n) skip_integers(2);  // ghosts
+      n_partitions_ = count();
+      for (auto n = count(); n > 0; --n) {
+        ghosts_.insert(integer());
+        integer();  // the partition that has these copies
+      }
     }
     std::array<std::uint64_t, 4> n_entities{};
     for (auto& n : n_entities) n = count();
     for (int dimension = 0; dimension < 4; ++dimension)
       for (auto i = n_entities[static_cast<std::size_t>(dimension)]; i > 0; --i) {
         const int entity = integer();
+        bool is_between = false;  // partitions
         if (is_partitioned) {
-          skip_integers(2);  // dimension and number of the whole entity
-          skip_integers(count());
+          is_between = integer() > dimension;  // dimension of the whole entity
+          integer();                           // its number
+          if (dimension > dimension_) partitions_.clear();
+          dimension_ = dimension;
+          for (auto n = count(); n > 0; --n) partitions_.insert(integer());
         }
         ModelEntity& of_file = entities_[{dimension, entity}];
         for (int k = 0; k < (dimension == 0 && !points_have_boxes ? 3 : 6); ++k) {  // point or box
           in.find_value("the end of the entities");
           of_file.box.push_back(in.coordinate("a coordinate"));
         }
-        for (auto n = count(); n > 0; --n) of_file.groups.push_back(integer());
+        for (auto n = count(); n > 0; --n) {
+          const int group = integer();
+          if (!is_between) of_file.groups.push_back(group);
+        }
         if (dimension == 0) continue;
         for (auto n = count(); n > 0; --n) of_file.boundary.push_back(integer());
       }
@@ -125,6 +141,17 @@ class MshGroups {
                                                                     : found->second.groups.front();
   }
 
+  /// True if the entity has copies of elements of other partitions.
+  bool has_ghosts(int dimension, int entity) const {
+    return dimension == dimension_ && ghosts_.contains(entity) &&
+           !entities_.contains({dimension, entity});
+  }
+  /// Returns which part the file has if all its cells are of one partition of several.
+  std::optional<MshPart> part() const {
+    if (n_partitions_ < 2 || partitions_.size() != 1) return std::nullopt;
+    return MshPart{*partitions_.begin(), n_partitions_};
+  }
+
   std::map<std::pair<int, int>, std::string> names() && { return std::move(names_); }
   std::map<std::pair<int, int>, ModelEntity> entities() && { return std::move(entities_); }
 
@@ -134,6 +161,10 @@ class MshGroups {
   std::map<Group, std::string> names_;
   std::map<int, std::string> of_any_dimension_;  ///< names by tag
   std::map<Group, ModelEntity> entities_;        ///< by dimension and number
+  std::uint64_t n_partitions_ = 0;
+  int dimension_ = 0;         ///< largest one of entities of a partition
+  std::set<int> partitions_;  ///< of the entities of that dimension
+  std::set<int> ghosts_;      ///< entities of copied elements
 };
 
 }  // namespace smoothfem

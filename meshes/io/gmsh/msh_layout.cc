@@ -143,7 +143,8 @@ class LayoutScan {
       if (entity[0] != type.dimension) return refuse("it is damaged");
       if (!fits(block.n, 8 + 8 * type.n_nodes)) return;
       at_ += block.n * (8 + 8 * type.n_nodes);
-      if (block.n > 0) layout_.elements.push_back(block);
+      if (block.n > 0 && !groups_.has_ghosts(entity[0], entity[1]))
+        layout_.elements.push_back(block);
     }
     require_end("$Elements");
   }

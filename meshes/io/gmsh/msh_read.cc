@@ -113,6 +113,15 @@ class MshReader {
       parts_.notes.push_back("the division into partitions" +
                              std::string(has_ghosts_ ? " with its ghost elements" : "") +
                              " is left out");
+    if (const auto part = groups_.part())
+      parts_.notes.push_back("the file has part " + std::to_string(part->number) + " of the " +
+                             std::to_string(part->n_all) +
+                             " parts of a mesh, and only this part is read; 'smooth', 'quality' "
+                             "and 'check' read all parts if mpirun starts them");
+    if (partitions_.size() == 1)
+      parts_.notes.push_back("all elements are of partition " +
+                             std::to_string(*partitions_.begin()) +
+                             "; if Gmsh has split the mesh into files, only this one is read");
     if (nodes_.has_parameters)
       parts_.notes.emplace_back("the parametric coordinates of nodes are left out");
     parts_.names = std::move(groups_).names();
@@ -285,6 +294,7 @@ class MshReader {
       if (k == 0) group = value;
       if (k == 1) entity = value;
       has_partitions_ = has_partitions_ || (k > 1 && value != 0);
+      if (k == 3) partitions_.insert(value);
     }
     add_element(tag, type, group, entity);
   }
@@ -305,13 +315,25 @@ class MshReader {
       const std::uint64_t n = in_.count("the number of elements in the block");
       in_.require_bytes(n, (1 + type.n_nodes) * sizeof(std::uint64_t));
       const int group = groups_.tag_of_entity(dimension, entity);
+      const bool are_ghosts = groups_.has_ghosts(dimension, entity);
       for (std::uint64_t i = 0; i < n; ++i) {
         in_.begin("element", i, n);
-        add_element(in_.tag("the element's tag"), type, group, entity);
+        if (are_ghosts)
+          skip_element(type);
+        else
+          add_element(in_.tag("the element's tag"), type, group, entity);
       }
       n_found += n;
     }
     msh_require_total(in_, "elements", n_found, n_elements);
+  }
+
+  /// Copies of elements of other partitions.
+  void skip_element(const MshType& type) {
+    in_.tag("the element's tag");
+    for (std::size_t k = 0; k < type.n_nodes; ++k) in_.node_of_element();
+    in_.end();
+    has_ghosts_ = true;
   }
 
   void add_element(std::uint64_t tag, const MshType& type, int group, int entity) {
@@ -362,6 +384,7 @@ class MshReader {
   std::set<std::string> seen_;
   std::vector<MshData> node_data_, element_data_;
   bool has_partitions_ = false, has_ghosts_ = false;
+  std::set<int> partitions_;  ///< the first ones of elements, in version 2
   MshGroups groups_;
   MshNodes nodes_;
   MeshParts parts_;
