@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "meshes/io/atomic_file.h"
+#include "meshes/io/gmsh/msh_parts.h"
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/mesh_file.h"
@@ -94,9 +95,10 @@ std::vector<std::size_t> ids_to_show(std::vector<std::size_t> ids, std::size_t n
   return ids;
 }
 
-/// Takes the parts of a piece; appends its cells with node indices that begin at first_node.
+/// has_tags: nodes and cells have the numbers of Gmsh. Takes the parts of a piece; appends its
+/// cells with node indices that begin at first_node.
 ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::size_t first_node,
-                     CellTable& table, ReadFor purpose) {
+                     CellTable& table, ReadFor purpose, bool has_tags) {
   if (parts.leaves_out_unused_nodes && purpose == ReadFor::smoothing)
     drop_unused_nodes(parts);  // as read_mesh() does
   ReadPiece piece{.dim = dimension_of(parts)};
@@ -117,7 +119,8 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
                  row);
   }
   piece.numbers = node_numbers(parts);
-  piece.cells = cell_numbers(parts, cells);
+  piece.cells = has_tags ? std::vector<std::int64_t>(cells.ids.begin(), cells.ids.end())
+                         : cell_numbers(parts, cells);
   piece.reasons.assign(parts.coordinates.size(), 0);
   add_reasons(parts, piece.dim, piece.reasons);
   piece.has_marks = parts.fixed && !parts.fixes_boundary_as_well;
@@ -286,7 +289,68 @@ void write_piece(const std::filesystem::path& path, const std::vector<NodeEntry<
 }  // namespace
 
 Pieces::Pieces(const Ranks& ranks, const std::filesystem::path& path) : ranks_(ranks), path_(path) {
-  ranks_.together([&] { files_ = is_list(path) ? files_of_pvtu(path) : std::vector{path}; });
+  files_ = {path};
+  if (is_list(path)) {
+    kind_ = Kind::vtk;
+    ranks_.together([&] { files_ = files_of_pvtu(path); });
+    return;
+  }
+  MshPart part;
+  ranks_.on_root([&] { part = msh_part(path).value_or(MshPart{}); });
+  ranks_.broadcast(part);
+  if (part.n_all == 0) return;
+  kind_ = Kind::gmsh;
+  ranks_.together([&] { files_ = files_of_msh_parts(path, part); });
+  ranks_.on_root([&] {
+    for (std::size_t p = 0; p < files_.size(); ++p) {
+      const auto refuse = [&](const std::string& what) {
+        throw InputError(files_[p].string() + ": " + what + ", but " + path.string() +
+                         " has part " + std::to_string(part.number) + " of the " +
+                         std::to_string(part.n_all) +
+                         " parts of a mesh; put the files of all parts into one folder");
+      };
+      if (!std::filesystem::exists(files_[p])) refuse("there is no such file");
+      const auto other = msh_part(files_[p]);
+      if (!other || other->n_all != part.n_all || other->number != static_cast<int>(p) + 1)
+        refuse("the file does not have part " + std::to_string(p + 1));
+    }
+    notes_.push_back("the files " + files_.front().filename().string() + " to " +
+                     files_.back().filename().string() + " are read, as parts of one mesh");
+  });
+}
+
+std::filesystem::path Pieces::default_output() const {
+  if (kind_ == Kind::gmsh) {
+    const std::string first = files_.front().stem().string();
+    return path_.parent_path() /
+           (first.substr(0, first.size() - 2) + "_smoothed" + path_.extension().string());
+  }
+  return path_.parent_path() /
+         (path_.stem().string() + "_smoothed" +
+          (kind_ == Kind::vtk ? std::string(".pvtu") : extension_to_write(path_)));
+}
+
+void Pieces::require_output(const std::filesystem::path& out) const {
+  if ((kind_ == Kind::vtk) != is_list(out))
+    throw InputError(path_.string() + " and " + out.string() +
+                     " must both be .pvtu files, or none of them; 'smoothfem convert' writes a "
+                     "mesh in pieces");
+  if (kind_ == Kind::gmsh && out.extension() != path_.extension())
+    throw InputError(out.string() + ": the parts of " + path_.string() +
+                     " are written as Gmsh's files; give a name that ends with " +
+                     path_.extension().string());
+  if (kind_ != Kind::vtk) require_mesh_path(out);
+  std::error_code ignored;
+  if (std::filesystem::equivalent(files_.front(), kind_ == Kind::gmsh ? msh_part_file(out, 1) : out,
+                                  ignored) ||
+      std::filesystem::equivalent(path_, out, ignored))
+    throw InputError("-o names the mesh itself; give another file name");
+}
+
+std::string Pieces::output_text(const std::filesystem::path& out) const {
+  if (kind_ != Kind::gmsh) return out.string();
+  return msh_part_file(out, 1).string() + " to " +
+         msh_part_file(out, static_cast<int>(files_.size())).filename().string();
 }
 
 std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces) {
@@ -295,13 +359,11 @@ std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces) {
 }
 
 std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) const {
-  if (!is_list(path_)) {
+  if (kind_ == Kind::whole) {
     auto& blocks = blocks_.emplace(ranks_, path_);
     if (blocks.obstacle().empty()) return blocks.read(purpose);
     if (ranks_.size() > 1)
-      notes_.push_back(std::string("the first process alone reads ") +
-                       (purpose == ReadFor::smoothing ? "and writes " : "") +
-                       "the file: " + blocks.obstacle());
+      notes_.push_back("the first process alone reads or writes the file: " + blocks.obstacle());
     blocks_.reset();
   }
   std::vector<ReadPiece> pieces;
@@ -310,9 +372,10 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
     std::size_t n_nodes = 0;
     for (std::size_t p = first_piece(); p < last_piece(); ++p) {
       MeshParts parts = read_mesh_parts(files_[p]);
-      if (!is_list(path_)) notes_.insert(notes_.end(), parts.notes.begin(), parts.notes.end());
-      pieces.push_back(take_piece(files_[p], std::move(parts), n_nodes, cells, purpose));
-      if (!is_list(path_)) {  // all nodes are here; two of them may lie in one place
+      if (kind_ == Kind::whole) notes_.insert(notes_.end(), parts.notes.begin(), parts.notes.end());
+      pieces.push_back(
+          take_piece(files_[p], std::move(parts), n_nodes, cells, purpose, kind_ == Kind::gmsh));
+      if (kind_ == Kind::whole) {  // all nodes are here; two of them may lie in one place
         pieces.back().numbers.resize(pieces.back().points.size());
         std::iota(pieces.back().numbers.begin(), pieces.back().numbers.end(), std::int64_t{0});
       }
@@ -336,6 +399,10 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
   const bool joins_places =
       any([](const ReadPiece& p) { return p.numbers.size() != p.points.size(); }) ||
       are_sparse(ranks_, pieces);
+  if (joins_places && kind_ == Kind::gmsh)
+    throw InputError(path_.string() +
+                     ": the numbers of nodes have large gaps; let Gmsh number them anew "
+                     "(Mesh.Renumber)");
   if (joins_places) number_by_coordinates(ranks_, pieces);
   const bool numbers_cells = !any([](const ReadPiece& p) { return p.cells.empty(); });
   const auto is_bad = [](std::int64_t number) {
@@ -358,7 +425,7 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
   const auto make = [&]<int dim>() {
     auto mesh =
         scattered<dim>(ranks_, path_, nodes_, std::move(pieces), std::move(cells), numbers_cells,
-                       !any_marks, purpose == ReadFor::examination && !is_list(path_));
+                       !any_marks, purpose == ReadFor::examination && kind_ == Kind::whole);
     mesh.joins_places = joins_places;
     return mesh;
   };
@@ -369,6 +436,7 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
 template <int dim>
 void Pieces::write(const std::filesystem::path& out,
                    const NodeDirectory<NodeEntry<dim>>& directory) const {
+  if (kind_ == Kind::gmsh) return write_gmsh_parts(out, directory);
   if (blocks_ && out.extension() == path_.extension()) return blocks_->write(out, directory);
   if (blocks_) {
     nodes_.assign(1, {});
@@ -385,14 +453,43 @@ void Pieces::write(const std::filesystem::path& out,
     ranks_.together([&] {
       if (!has_piece) return;
       const std::size_t p = first_piece() + k;
-      is_list(path_) ? write_piece<dim>(files_[p], entries, piece_file(out, p))
-                     : write_whole<dim>(files_[p], entries, out);
+      kind_ == Kind::vtk ? write_piece<dim>(files_[p], entries, piece_file(out, p))
+                         : write_whole<dim>(files_[p], entries, out);
     });
   }
   ranks_.together([&] {
-    if (!ranks_.is_root() || !is_list(path_)) return;
+    if (!ranks_.is_root() || kind_ != Kind::vtk) return;
     write_piece_list(out, files_.size());
   });
+}
+
+template <int dim>
+void Pieces::write_gmsh_parts(const std::filesystem::path& out,
+                              const NodeDirectory<NodeEntry<dim>>& directory) const {
+  const auto n_rounds =
+      static_cast<std::size_t>(ranks_.max(static_cast<double>(last_piece() - first_piece())));
+  for (std::size_t p = first_piece(); p < first_piece() + n_rounds; ++p) {
+    // Also nodes that only copies of other parts' cells have.
+    std::optional<MshNodeFile> file;
+    std::vector<GlobalIndex> numbers;
+    ranks_.together([&] {
+      if (p >= last_piece()) return;
+      file.emplace(files_[p]);
+      for (const std::uint64_t tag : file->tags())
+        if (tag < directory.n()) numbers.push_back(static_cast<GlobalIndex>(tag));
+    });
+    const auto entries = directory.ask(numbers, [](const NodeEntry<dim>& entry) { return entry; });
+    ranks_.together([&] {
+      if (!file) return;
+      auto entry = entries.begin();
+      file->write(msh_part_file(out, static_cast<int>(p) + 1), dim,
+                  [&](std::size_t i) -> const double* {
+                    if (file->tags()[i] >= directory.n()) return nullptr;
+                    const NodeEntry<dim>& node = *entry++;
+                    return node.owner < 0 ? nullptr : node.x.data();
+                  });
+    });
+  }
 }
 
 std::filesystem::path piece_file(const std::filesystem::path& out, std::size_t piece) {

@@ -16,19 +16,23 @@ namespace smoothfem {
 /// Shares are rounded up, so that the first rank has a piece.
 std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces);
 
-/// A mesh in several files: VTK's .pvtu and the pieces that it names. Any other file is a mesh of
-/// one piece. All ranks read it in blocks if they can (file_blocks.h), otherwise the first rank.
-/// Each cell is in one piece; nodes between pieces are in all of these. Cells have the numbers of
-/// the array with the role GlobalIds, if all pieces have one, otherwise those of their order. Nodes
-/// have the numbers of the array with the role GlobalIds or of `node_id`, from 0 or above, if all
-/// pieces have one of these. Otherwise nodes with equal coordinates are the same, and are numbered
-/// as they first appear.
+/// A mesh in several files: VTK's .pvtu and the pieces that it names, or the files NAME_1.msh,
+/// NAME_2.msh, ... into which Gmsh has split a mesh, of which one is given. Any other file is a
+/// mesh of one piece. All ranks read it in blocks if they can (file_blocks.h), otherwise the first
+/// rank.
+///
+/// Each cell is in one piece; nodes between pieces are in all of these. In VTK's files, cells have
+/// the numbers of the array with the role GlobalIds, if all pieces have one, otherwise those of
+/// their order. Nodes have the numbers of the array with the role GlobalIds or of `node_id`, from 0
+/// or above, if all pieces have one of these. Otherwise nodes with equal coordinates are the same,
+/// and are numbered as they first appear. In Gmsh's files, the tags are the numbers.
 ///
 /// Each rank reads its pieces (first_piece_of()) one after the other. Each file is read by one
 /// rank.
 class Pieces {
  public:
-  /// Reads the list of files. Collective. Throws InputError "path:line: ..." on all ranks.
+  /// Finds the files. Collective. Throws InputError "path:line: ..." on all ranks, also if a file
+  /// of Gmsh is missing.
   Pieces(const Ranks& ranks, const std::filesystem::path& path);
 
   static bool is_list(const std::filesystem::path& path) { return path.extension() == ".pvtu"; }
@@ -37,13 +41,21 @@ class Pieces {
   /// smoothing can be written. Collective. Throws InputError.
   std::variant<ScatteredMesh<2>, ScatteredMesh<3>> read(ReadFor purpose = ReadFor::smoothing) const;
 
-  /// Returns why the first rank alone has read the file, and what it has left out, one sentence
-  /// each. Same on all ranks.
+  /// Returns a path for the result, if the user gives none.
+  std::filesystem::path default_output() const;
+  /// Throws InputError if `out` cannot be the result or is the mesh itself.
+  void require_output(const std::filesystem::path& out) const;
+  /// Names the files that write() makes, for example "out_1.msh to out_3.msh".
+  std::string output_text(const std::filesystem::path& out) const;
+
+  /// Returns which files are read, why the first rank alone reads one, and what it has left out,
+  /// one sentence each, on the root.
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// Writes pieces with new coordinates, and all else as it is in the files: out.pvtu, and the
-  /// pieces as out/out_NNNN.vtu; the only piece of another file as `out`. directory: with
-  /// coordinates and reasons to stay (store_coordinates). Collective. Throws InputError.
+  /// pieces as out/out_NNNN.vtu; Gmsh's files from out.msh or out_1.msh as out_1.msh, out_2.msh,
+  /// ...; the only piece of another file as `out`. directory: with coordinates and reasons to stay
+  /// (store_coordinates). Collective. Throws InputError.
   template <int dim>
   void write(const std::filesystem::path& out,
              const NodeDirectory<NodeEntry<dim>>& directory) const;
@@ -54,8 +66,16 @@ class Pieces {
     return first_piece_of(ranks_, ranks_.rank() + 1, files_.size());
   }
 
+  /// Kinds of files, by what their pieces are.
+  enum class Kind { whole, vtk, gmsh };
+
+  template <int dim>
+  void write_gmsh_parts(const std::filesystem::path& out,
+                        const NodeDirectory<NodeEntry<dim>>& directory) const;
+
   Ranks ranks_;
   std::filesystem::path path_;
+  Kind kind_ = Kind::whole;
   std::vector<std::filesystem::path> files_;
   /// Numbers of the nodes of each piece of this rank, since read().
   mutable std::vector<std::vector<GlobalIndex>> nodes_;

@@ -271,9 +271,7 @@ template <int dim>
 void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pieces& pieces,
                   ScatteredMesh<dim> scattered, const Clock& clock) {
   const double read_seconds = clock.seconds();
-  if (ranks.is_root())
-    for (const std::string& note : pieces.notes())
-      std::fprintf(stderr, "smoothfem: %s: %s\n", arguments.in.c_str(), note.c_str());
+  if (ranks.is_root()) print_notes(arguments.in, pieces.notes());
   const auto [directory, title, before, result, of_log, distributed_seconds] =
       smoothed(ranks, arguments, std::move(scattered), clock);
   const double smoothed_seconds = clock.seconds();
@@ -294,10 +292,10 @@ void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pi
       "GiB "
       "a process\n",
       title.c_str(), result.iterations_text().c_str(), seconds, ranks.size(),
-      ranks.size() == 1 ? "process" : "processes", n_threads(), arguments.out.c_str(),
-      of_log.c_str(), read_seconds, distributed_seconds - read_seconds,
-      smoothed_seconds - distributed_seconds, clock.seconds() - smoothed_seconds,
-      peak / (1024.0 * 1024.0 * 1024.0));
+      ranks.size() == 1 ? "process" : "processes", n_threads(),
+      pieces.output_text(arguments.out).c_str(), of_log.c_str(), read_seconds,
+      distributed_seconds - read_seconds, smoothed_seconds - distributed_seconds,
+      clock.seconds() - smoothed_seconds, peak / (1024.0 * 1024.0 * 1024.0));
 }
 
 std::vector<std::size_t> counts_of(const std::string& text) {
@@ -323,29 +321,17 @@ void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments) {
   using namespace smoothfem;
   on_ranks([&](const Ranks& ranks) {
     SmoothArguments all = arguments;
-    if (all.out.empty()) {
-      std::filesystem::path path = all.in;
-      all.out = path.replace_filename(path.stem().string() + "_smoothed" +
-                                      (Pieces::is_list(path) ? ".pvtu" : extension_to_write(path)))
-                    .string();
-    }
-    if (Pieces::is_list(all.in) != Pieces::is_list(all.out))
-      throw InputError(all.in + " and " + all.out +
-                       " must both be .pvtu files, or none of them; 'smoothfem convert' writes a "
-                       "mesh in pieces");
-    if (!Pieces::is_list(all.out)) require_mesh_path(all.out);
+    const Clock clock;
+    const Pieces pieces(ranks, all.in);
+    if (all.out.empty()) all.out = pieces.default_output().string();
     refuse_options(all);
     ranks.together([&] {
-      std::error_code ignored;
-      if (std::filesystem::equivalent(all.in, all.out, ignored))
-        throw InputError("-o names the mesh itself; give another file name");
+      pieces.require_output(all.out);
       if (!ranks.is_root()) return;
       require_writable_file(all.out);
       if (!all.log.empty()) require_writable_file(all.log);
     });
     share_cores(all.n_threads);
-    const Clock clock;
-    const Pieces pieces(ranks, all.in);
     std::visit(
         [&](auto& scattered) { smooth_parts(ranks, all, pieces, std::move(scattered), clock); },
         *std::make_unique<std::variant<ScatteredMesh<2>, ScatteredMesh<3>>>(pieces.read()));
@@ -358,6 +344,7 @@ void smoothfem_report_pieces(const std::string& mesh, const bool& as_json) {
     share_cores(0);
     const Pieces pieces(ranks, mesh);
     auto scattered = pieces.read();
+    if (ranks.is_root()) print_notes(mesh, pieces.notes());
     std::visit(
         [&](auto& of_dim) {
           const auto whole = distributed(ranks, std::move(of_dim));

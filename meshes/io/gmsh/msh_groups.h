@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "meshes/io/gmsh/msh_parts.h"
 #include "meshes/io/line_reader.h"
 #include "smoothing/mesh/mesh_labels.h"
 
@@ -34,12 +35,6 @@ std::uint64_t msh_count_in_text(Input& in, const char* what) {
             ", which is not an integer of at least 0");
   return n;
 }
-
-/// One part of a mesh that Gmsh has split into files, one for each partition.
-struct MshPart {
-  int number = 0;           ///< from 1
-  std::uint64_t n_all = 0;  ///< parts of the mesh
-};
 
 /// The physical groups of a .msh file: their names and, in version 4, the groups of the model's
 /// entities, which apply to their elements. Entities that Gmsh has made between partitions have no

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -116,8 +117,11 @@ class MshReader {
     if (const auto part = groups_.part())
       parts_.notes.push_back("the file has part " + std::to_string(part->number) + " of the " +
                              std::to_string(part->n_all) +
-                             " parts of a mesh, and only this part is read; 'smooth', 'quality' "
-                             "and 'check' read all parts if mpirun starts them");
+                             " parts of a mesh, and only this part is read" +
+                             (version_4_ == MshVersion4::v4_1 && !in_.is_swapped()
+                                  ? "; 'smooth', 'quality' and 'check' read all parts if mpirun "
+                                    "starts them"
+                                  : "; save the mesh as one file"));
     if (partitions_.size() == 1)
       parts_.notes.push_back("all elements are of partition " +
                              std::to_string(*partitions_.begin()) +
@@ -435,14 +439,16 @@ std::optional<MshVersion4> version_of(const LineReader& reader, const std::strin
 
 }  // namespace
 
-MeshParts read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
-  const std::string content = read_whole_file(path);
-  LineReader reader(path, content);
-  auto comments = leading_comments(reader);
-  const std::string_view first = reader.word();
-  if (first == msh_first_line_1) return read_msh_1(path, content);
-  if (first != msh_first_line)
-    reader.fail("the first line is not '$MeshFormat'; this is not a Gmsh mesh file");
+namespace {
+
+/// What the first section of a file of version 2 or later says.
+struct MshHead {
+  std::optional<MshVersion4> version;
+  bool is_binary;
+};
+
+/// Reads the rest of the first section, after its first line. Throws InputError.
+MshHead read_head(LineReader& reader) {
   reader.require_line("the format's version");
   const std::string word(reader.word());
   const std::optional<MshVersion4> version_4 = version_of(reader, word);
@@ -455,23 +461,89 @@ MeshParts read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
   if (is_binary && version_4 == MshVersion4::v4_0)
     reader.fail("the file has version " + in_quotes(word) +
                 " and is binary; save it as text, or as version 4.1 or 2.2");
-  MeshParts parts;
-  if (is_binary) {
+  return {version_4, is_binary};
+}
+
+/// Returns visit(input) after the first section.
+template <class Visit>
+auto with_input(const std::filesystem::path& path, std::string_view content,
+                const LineReader& reader, const MshHead& head, const Visit& visit) {
+  if (head.is_binary) {
     MshBinaryInput input(path.string(), content, content.size() - reader.rest().size(),
-                         version_4.has_value());
+                         head.version.has_value());
     input.require_end("$MeshFormat");
-    parts = MshReader(std::move(input), version_4).parts();
-  } else {
-    MshTextInput input(reader);
-    input.require_end("$MeshFormat");
-    parts = MshReader(std::move(input), version_4).parts();
+    return visit(std::move(input));
   }
+  MshTextInput input(reader);
+  input.require_end("$MeshFormat");
+  return visit(std::move(input));
+}
+
+/// Returns the beginning of a file up to the end of $PartitionedEntities; nothing if there is no
+/// such section before the nodes.
+std::string beginning_with_partitions(const std::filesystem::path& path) {
+  constexpr std::string_view end = "$EndPartitionedEntities";
+  std::ifstream file(path, std::ios::binary);
+  std::string content;
+  for (std::string chunk(std::size_t{1} << 16, '\0'); file;) {
+    file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    const std::size_t from = content.size() - std::min(content.size(), end.size());
+    content.append(chunk, 0, static_cast<std::size_t>(file.gcount()));
+    if (const std::size_t at = content.find(end, from); at != content.npos)
+      return content.substr(0, at + end.size());
+    if (content.find("\n$Nodes", from) != content.npos) break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<MshPart> msh_part(const std::filesystem::path& path) {
+  try {
+    const std::string content = beginning_with_partitions(path);
+    if (content.empty()) return std::nullopt;
+    LineReader reader(path, content);
+    (void)leading_comments(reader);
+    if (reader.word() != msh_first_line) return std::nullopt;
+    const MshHead head = read_head(reader);
+    if (head.version != MshVersion4::v4_1) return std::nullopt;
+    return with_input(path, content, reader, head, [](auto input) -> std::optional<MshPart> {
+      MshGroups groups;
+      for (std::string section = input.next_section(); !section.empty() && !input.is_swapped();
+           section = input.next_section()) {
+        const bool is_partitioned = section == "$PartitionedEntities";
+        if (is_partitioned || section == "$Entities")
+          groups.read_entities(input, is_partitioned, false);
+        else
+          input.skip_section(section);
+        if (is_partitioned) return groups.part();
+        if (section == "$Entities") input.require_end(section);
+      }
+      return std::nullopt;
+    });
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+MeshParts read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
+  const std::string content = read_whole_file(path);
+  LineReader reader(path, content);
+  auto comments = leading_comments(reader);
+  const std::string_view first = reader.word();
+  if (first == msh_first_line_1) return read_msh_1(path, content);
+  if (first != msh_first_line)
+    reader.fail("the first line is not '$MeshFormat'; this is not a Gmsh mesh file");
+  const MshHead head = read_head(reader);
+  MeshParts parts = with_input(path, content, reader, head, [&](auto input) {
+    return MshReader(std::move(input), head.version).parts();
+  });
   for (std::string& section : comments) {
     parts.content.sections.push_back(std::move(section));
     parts.content.section_names.push_back("the section " + std::string(msh_comments));
   }
-  parts.content.version = version_4 ? "4.1" : "2.2";
-  parts.content.is_binary = is_binary;
+  parts.content.version = head.version ? "4.1" : "2.2";
+  parts.content.is_binary = head.is_binary;
   parts.leaves_out_unused_nodes = true;
   return parts;
 }
