@@ -491,7 +491,7 @@ std::string beginning_with_partitions(const std::filesystem::path& path) {
     content.append(chunk, 0, static_cast<std::size_t>(file.gcount()));
     if (const std::size_t at = content.find(end, from); at != content.npos)
       return content.substr(0, at + end.size());
-    if (content.find("\n$Nodes", from) != content.npos) break;
+    if (!content.starts_with('$') || content.find("\n$Nodes", from) != content.npos) break;
   }
   return {};
 }
