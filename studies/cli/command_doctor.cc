@@ -94,6 +94,7 @@ void show_text(const std::string& path, const Examination& seen) {
 void check_parts(const DoctorArguments& arguments) {
   if (arguments.in == "-")
     throw InputError("processes cannot share standard input; give a file, or leave mpirun out");
+  if (!arguments.from.empty()) throw InputError("--from is for standard input, '-'; leave it out");
   Examination seen;
   if (examine_pieces(arguments.in, seen))
     (arguments.json ? show_json : show_text)(arguments.in, seen);
