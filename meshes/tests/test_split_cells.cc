@@ -50,6 +50,25 @@ TEST(SplitCells, OfASquareHaveItsMiddle) {
   }
 }
 
+/// 0.1 + 1.2 + 1.3 + 0.4 differs from the sum in the reverse order in the last bit.
+TEST(SplitCells, HaveMeansInTheOrderOfNumbers) {
+  const PlanarMesh mesh = test::make_mesh({{0.1, 0}, {1.2, 0}, {1.3, 1}, {0.4, 1}}, {{0, 1, 2, 3}});
+  const std::vector<std::uint32_t> numbers{13, 12, 11, 10};
+  const auto split = split_cells(mesh, numbers), plain = split_cells(mesh);
+  ASSERT_EQ(split.means.size(), 5u);
+  EXPECT_THAT(split.means[0], ElementsAre(1, 0));
+  EXPECT_THAT(plain.means[0], ElementsAre(0, 1));
+  const auto middle = [](const auto& of) {
+    for (std::size_t i = 0; i < 5; ++i)
+      if (of.means[i].size() == 4) return of.points[4 + i][0];
+    return 0.0;
+  };
+  EXPECT_EQ(middle(split), (0.4 + 1.3 + 1.2 + 0.1) / 4.0);
+  EXPECT_EQ(middle(plain), (0.1 + 1.2 + 1.3 + 0.4) / 4.0);
+  EXPECT_NE(middle(split), middle(plain));
+  EXPECT_THAT(split.origins, ElementsAre(0, 0, 0, 0));
+}
+
 TEST(SplitCells, FillTheMeshInThePlane) {
   PlanarMesh triangles = test::grid_mesh(4, test::GridCells::triangles);
   PlanarMesh squares = test::grid_mesh(4, test::GridCells::quadrilaterals);
