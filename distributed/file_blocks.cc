@@ -196,7 +196,7 @@ ScatteredMesh<dim> FileBlocks::read_as() {
         "a node appears twice, or an element names a node that the file does not have; the file is "
         "damaged");
   if (dim == 2 && ranks_.max(most_z) != -ranks_.max(-least_z))
-    refuse("a surface mesh cannot be smoothed in parts; smooth one file without mpirun");
+    refuse("a surface mesh cannot be handled in parts; use one file without mpirun");
   const std::size_t n_nodes =
       number_entries(ranks_, tagged, [](const TaggedNode& node) { return node.is_used; });
   ScatteredMesh<dim> mesh{.n_cells = ranks_.sum(elements.cells.size()),

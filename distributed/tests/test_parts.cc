@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mpi.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -15,6 +14,7 @@
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
 #include "distributed/split.h"
+#include "distributed/tests/folder.h"
 #include "distributed/tests/scattered.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/io/mesh_file.h"
@@ -30,6 +30,8 @@ namespace fs = std::filesystem;
 using test::all_ranks;
 using test::box_mesh;
 using test::BoxCells;
+using test::content_of;
+using test::Folder;
 using test::grid_mesh;
 using test::GridCells;
 using testing::HasSubstr;
@@ -237,30 +239,6 @@ TEST(Parts, NumberSetsKnowPositions) {
   EXPECT_THAT(set.numbers(), testing::ElementsAre(0, 63, 64, 130, 199));
   EXPECT_EQ(set.position(64), 2u);
   EXPECT_EQ(set.position(199), 4u);
-}
-
-/// A folder that the root makes and removes.
-class Folder {
- public:
-  Folder() {
-    long number = ::getpid();
-    all_ranks().broadcast(number);
-    path_ = fs::temp_directory_path() / ("smoothfem_parts_" + std::to_string(number));
-    all_ranks().on_root([&] { fs::create_directories(path_); });
-  }
-  ~Folder() {
-    (void)all_ranks().any(false);
-    if (all_ranks().is_root()) fs::remove_all(path_);
-  }
-  fs::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 VolumeMesh smoothed_pieces(const Ranks& ranks, const fs::path& in, const fs::path& out) {

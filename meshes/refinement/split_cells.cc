@@ -7,6 +7,7 @@
 #include <map>
 
 #include "meshes/io/losses.h"
+#include "smoothing/mesh/fixed_nodes.h"
 
 namespace smoothfem {
 
@@ -117,7 +118,8 @@ class Splitting {
     MeshLabels of_parts;
     of_parts.names = labels.names;
     if (labels.content && labels.content->plane) {
-      FileContent content{.plane = labels.content->plane};
+      FileContent content;
+      content.plane = labels.content->plane;
       content.plane->initial.clear();
       of_parts.content = std::make_shared<const FileContent>(std::move(content));
     }
@@ -248,12 +250,37 @@ SplitCells<dim> split_cells(const Mesh<dim>& mesh, std::span<const std::uint32_t
   return Splitting<dim>(mesh, numbers).split();
 }
 
+namespace {
+
 template <int dim>
-Mesh<dim> with_split_cells(const Mesh<dim>& mesh) {
-  SplitCells<dim> split = split_cells(mesh);
+Mesh<dim> mesh_of(SplitCells<dim> split) {
   auto topology = std::make_shared<const Topology>(dim, split.points.size(), std::move(split.cells),
                                                    std::nullopt, std::move(split.labels));
   return {std::move(topology), std::move(split.points)};
+}
+
+}  // namespace
+
+template <int dim>
+Mesh<dim> with_split_cells(const Mesh<dim>& mesh) {
+  return mesh_of(split_cells(mesh));
+}
+
+template <int dim>
+Mesh<dim> refined(const Mesh<dim>& mesh) {
+  SplitCells<dim> split = split_cells(mesh);
+  const CompressedRows<NodeIndex> means = std::move(split.means);
+  Mesh<dim> result = mesh_of(std::move(split));
+  std::vector<bool> stays;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    stays.push_back(mesh.topology().fixed_reasons(i) != 0);
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const auto mean = means[i];
+    stays.push_back(
+        result.topology().on_boundary()[mesh.n_nodes() + i] &&
+        std::all_of(mean.begin(), mean.end(), [&](NodeIndex node) -> bool { return stays[node]; }));
+  }
+  return with_fixed_nodes(std::move(result), stays);
 }
 
 std::vector<std::string> losses_of_splitting(const MeshLabels& labels) {
@@ -289,5 +316,7 @@ template SplitCells<2> split_cells(const Mesh<2>&, std::span<const std::uint32_t
 template SplitCells<3> split_cells(const Mesh<3>&, std::span<const std::uint32_t>);
 template Mesh<2> with_split_cells(const Mesh<2>&);
 template Mesh<3> with_split_cells(const Mesh<3>&);
+template Mesh<2> refined(const Mesh<2>&);
+template Mesh<3> refined(const Mesh<3>&);
 
 }  // namespace smoothfem

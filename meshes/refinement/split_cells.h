@@ -35,6 +35,11 @@ SplitCells<dim> split_cells(const Mesh<dim>& mesh, std::span<const std::uint32_t
 template <int dim>
 Mesh<dim> with_split_cells(const Mesh<dim>& mesh);
 
+/// As above. In addition, existing nodes that stay do so in the refined mesh, too. A new node stays
+/// if it lies on the boundary between nodes that stay.
+template <int dim>
+Mesh<dim> refined(const Mesh<dim>& mesh);
+
 /// Returns what a mesh says that its split mesh does not, for example "the field pressure".
 std::vector<std::string> losses_of_splitting(const MeshLabels& labels);
 

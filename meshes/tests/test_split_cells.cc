@@ -124,6 +124,34 @@ TEST(SplitCells, PartsInheritTags) {
   EXPECT_EQ(found.names, labels.names);
 }
 
+/// Node 4 in the middle is marked, node 2 on the boundary is not.
+TEST(SplitCells, NodesThatStayDoSoInTheRefinedMesh) {
+  const PlanarMesh mesh = test::make_mesh({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}},
+                                          {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}},
+                                          std::vector{true, true, false, true, true});
+  const PlanarMesh found = refined(mesh);
+  for (NodeIndex i = 0; i < found.n_nodes(); ++i) {
+    const Point<2> p = found.coordinates()[i];
+    EXPECT_EQ(found.topology().is_fixed(i), p[0] == 0 || p[1] == 0 || (p[0] == 1 && p[1] == 1))
+        << p.transpose();
+  }
+}
+
+TEST(SplitCells, LossesAreNamed) {
+  FileContent content;
+  content.node_fields = {{.name = "number"}, {.name = "pressure"}};
+  content.node_roles["GlobalIds"] = "number";
+  content.element_fields = {{.name = "material"}};
+  content.tag_field = "material";
+  content.others[0].nodes.append(std::array<NodeIndex, 1>{3});
+  MeshLabels labels;
+  EXPECT_THAT(losses_of_splitting(labels), ElementsAre());
+  labels.content = std::make_shared<const FileContent>(content);
+  EXPECT_THAT(
+      losses_of_splitting(labels),
+      ElementsAre("the field pressure", "elements that are neither cells nor labelled facets"));
+}
+
 TEST(SplitCells, RefusesPolygons) {
   EXPECT_THROW((void)with_split_cells(test::pentagon_mesh()), InputError);
 }

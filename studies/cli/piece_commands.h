@@ -37,6 +37,8 @@ void report_pieces(const std::string& mesh, bool as_json);
 void generate_box(const BoxArguments& arguments);
 /// Writes a whole mesh in pieces (distributed/split.h).
 void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& out);
+/// Splits the cells of a mesh in pieces (distributed/refine.h).
+void refine_pieces(const std::string& in, const std::string& out, bool quiet);
 
 }  // namespace smoothfem
 
@@ -47,6 +49,7 @@ void smoothfem_report_pieces(const std::string& mesh, const bool& as_json);
 void smoothfem_generate_box(const smoothfem::BoxArguments& arguments);
 void smoothfem_split_mesh(const smoothfem::AnyMesh& mesh, const std::size_t& n_pieces,
                           const std::string& out);
+void smoothfem_refine_pieces(const std::string& in, const std::string& out, const bool& quiet);
 /// A function of the module of studies: reads --finite-elements.
 void smoothfem_read_finite_elements(const std::vector<std::string>& settings,
                                     smoothfem::PoissonOptions& options);
