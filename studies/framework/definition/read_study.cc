@@ -193,6 +193,8 @@ void read_problem(ParameterHandler& p, const StudyText& text, Study& study) {
     study.count_below.push_back(std::stod(item));
   study.metrics = read_metrics(p.get("metrics"), file);
   study.write_series = p.get_bool("write series");
+  study.in_parts = p.get_bool("in parts");
+  study.refine = static_cast<int>(p.get_integer("refine"));
   auto of_groups = read_group_diffusivities(p, "solution");
   {
     const Subsection subsection(p, "solution");
@@ -254,15 +256,22 @@ std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std
 
 /// Parameters without the study's kind and without newer keys that have their default. So results
 /// resume that are older than kinds, surfaces, derived solutions, diffusivities, natural
-/// conditions, several solutions, constraints, solvers, rules for interfaces and targets.
+/// conditions, several solutions, constraints, solvers, rules for interfaces, targets and parts.
 StudyParameters said_parameters(ParameterHandler& p) {
   auto parameters = all_parameters(p);
-  std::erase_if(parameters, [](const auto& entry) {
+  const auto is_key = [](const std::string& key, const std::string& path) {
+    return path == key || path.ends_with("/" + key);
+  };
+  std::erase_if(parameters, [&](const auto& entry) {
     return entry.first == "kind" ||
            entry == std::pair<std::string, std::string>{"surface", "false"} ||
            entry == std::pair<std::string, std::string>{"hanging nodes", "refuse"} ||
            entry == std::pair<std::string, std::string>{"solvers", poisson_label} ||
            entry == std::pair<std::string, std::string>{"periodic", "prescribe"} ||
+           entry == std::pair<std::string, std::string>{"in parts", "false"} ||
+           (is_key("refine", entry.first) && entry.second == "0") ||
+           (entry.first.starts_with("scale ") && entry.second.empty() &&
+            (is_key("in parts", entry.first) || is_key("degrees", entry.first))) ||
            (entry.first.ends_with("/interfaces") && entry.second == "fixed") ||
            (entry.first.ends_with("/target") && entry.second == "regular") ||
            (entry.second.empty() &&
