@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "meshes/io/losses.h"
 #include "smoothing/mesh/fixed_nodes.h"
@@ -117,12 +118,6 @@ class Splitting {
     const MeshLabels& labels = topology.labels();
     MeshLabels of_parts;
     of_parts.names = labels.names;
-    if (labels.content && labels.content->plane) {
-      FileContent content;
-      content.plane = labels.content->plane;
-      content.plane->initial.clear();
-      of_parts.content = std::make_shared<const FileContent>(std::move(content));
-    }
     std::vector<CellIndex> origins;
     for (CellIndex c = 0; c < topology.n_cells(); ++c) {
       const std::size_t before = cells_.size();
@@ -138,12 +133,29 @@ class Splitting {
       of_parts.facet_tags.insert(of_parts.facet_tags.end(), of_parts.facets.size() - before,
                                  labels.facet_tags[f]);
     }
+    of_parts.content = content_of_parts(labels.content.get());
     return {std::move(points_), std::move(means_), std::move(cells_), std::move(origins),
             std::move(of_parts)};
   }
 
  private:
   using Nodes = std::span<const NodeIndex>;
+
+  /// Returns the plane of a planar mesh in space, in which existing nodes keep their points.
+  std::shared_ptr<const FileContent> content_of_parts(const FileContent* content) const {
+    if constexpr (dim == 2)
+      if (content && content->plane) {
+        PlaneInSpace plane = *content->plane;
+        auto initial = std::exchange(plane.initial, {});
+        for (auto i = static_cast<NodeIndex>(initial.size()); i > 0 && i < points_.size(); ++i)
+          initial.push_back(plane.in_space(i, points_[i]));
+        plane.initial = std::move(initial);
+        FileContent result;
+        result.plane = std::move(plane);
+        return std::make_shared<const FileContent>(std::move(result));
+      }
+    return nullptr;
+  }
 
   void split_cell(Nodes nodes, ElementType type) {
     static const Parts triangle = parts_of_triangle(), square = parts_of_box(4),

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "meshes/io/mesh_view.h"
 #include "meshes/refinement/split_cells.h"
 #include "smoothing/geometry/cell_size.h"
 #include "smoothing/quality/mesh_quality.h"
@@ -135,6 +136,22 @@ TEST(SplitCells, NodesThatStayDoSoInTheRefinedMesh) {
     EXPECT_EQ(found.topology().is_fixed(i), p[0] == 0 || p[1] == 0 || (p[0] == 1 && p[1] == 1))
         << p.transpose();
   }
+}
+
+/// Node 2 is off the plane z = 5 by rounding.
+TEST(SplitCells, StayInThePlaneOfTheMesh) {
+  FileContent content;
+  content.plane.emplace();
+  content.plane->origin = {0, 0, 5};
+  content.plane->initial = {{0, 0, 5}, {2, 0, 5}, {0, 2, 5.0000000000000009}};
+  MeshLabels labels;
+  labels.content = std::make_shared<const FileContent>(content);
+  const PlanarMesh split = with_split_cells(PlanarMesh(
+      std::make_shared<const Topology>(2, 3, test::rows_of({{0, 1, 2}}), std::nullopt, labels),
+      {{0, 0}, {2, 0}, {0, 2}}));
+  const MeshView view(split);
+  EXPECT_EQ(view.point(2), content.plane->initial[2]);
+  EXPECT_EQ(view.point(3), Point<3>(1, 0, 5));
 }
 
 TEST(SplitCells, LossesAreNamed) {
