@@ -33,6 +33,15 @@ std::vector<std::string> method_labels(const std::string& list, MeshDimensions d
   return names;
 }
 
+/// Leaves only methods that work on meshes in parts.
+void leave_methods_for_parts(Study& study) {
+  with_dimensions(study.dimensions, [&]<int dim, int spacedim>() {
+    std::erase_if(study.methods, [](const StudyMethod& method) {
+      return !works_in_parts(method.make<dim, spacedim>());
+    });
+  });
+}
+
 /// Returns the numbers of "sequential: 10, ..."; deal.II has checked them.
 std::map<std::string, int> stage_numbers(const std::string& text) {
   std::map<std::string, int> numbers;
@@ -513,6 +522,7 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
                                  is_not_run(type_of[method], !plugins.empty()));
     }));
   read_problem(p, text, study);
+  if (study.in_parts && lists.get("methods") == "all") leave_methods_for_parts(study);
   in_file(file,
           [&] { study.solvers = read_solvers(p, text, solvers, dimensions.cells, study.degrees); });
   if (std::find(solvers.begin(), solvers.end(), poisson_label) == solvers.end())
