@@ -212,7 +212,7 @@ ScatteredMesh<dim> FileBlocks::read_as(ReadFor purpose) {
         "a node appears twice, or an element names a node that the file does not have; the file is "
         "damaged");
   if (dim == 2 && ranks_.max(most_z) != -ranks_.max(-least_z))
-    refuse("a surface mesh cannot be held in parts; use one file without mpirun");
+    refuse("a surface mesh cannot be handled in parts; use one file without mpirun");
   const bool keeps_all = purpose == ReadFor::examination;
   const auto counts = [&](const TaggedNode& node) {
     return node.is_used || (keeps_all && node.n_given > 0);

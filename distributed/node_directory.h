@@ -30,6 +30,15 @@ class NodeDirectory {
   const std::vector<Entry>& entries() const { return entries_; }
   std::size_t first() const { return first_of(ranks_.rank()); }
 
+  /// Returns the rank that keeps the entry of a number. Not collective.
+  std::size_t keeper_of(GlobalIndex number) const {
+    auto rank =
+        static_cast<int>(std::size_t{number} * static_cast<std::size_t>(ranks_.size()) / n_);
+    while (number < first_of(rank)) --rank;
+    while (number >= first_of(rank + 1)) ++rank;
+    return static_cast<std::size_t>(rank);
+  }
+
   /// Calls merge(kept entry, given entry, rank it comes from) for the entries that ranks give for
   /// some numbers, in the order of the ranks.
   template <class Merge>
@@ -90,14 +99,6 @@ class NodeDirectory {
   std::size_t first_of(int rank) const {
     return n_ * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks_.size());
   }
-  std::size_t keeper_of(GlobalIndex number) const {
-    auto rank =
-        static_cast<int>(std::size_t{number} * static_cast<std::size_t>(ranks_.size()) / n_);
-    while (number < first_of(rank)) --rank;
-    while (number >= first_of(rank + 1)) ++rank;
-    return static_cast<std::size_t>(rank);
-  }
-
   Ranks ranks_;
   std::size_t n_;
   std::vector<Entry> entries_;

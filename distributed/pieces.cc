@@ -49,15 +49,6 @@ std::vector<std::int64_t> node_numbers(const MeshParts& parts) {
   return ids ? *ids : std::vector<std::int64_t>(parts.node_ids.begin(), parts.node_ids.end());
 }
 
-/// Returns the numbers of the cells in the whole mesh; empty if the file has none.
-std::vector<std::int64_t> cell_numbers(const MeshParts& parts, const ElementList& cells) {
-  const auto* ids = global_ids(parts.content.element_roles, parts.content.element_fields);
-  std::vector<std::int64_t> numbers;
-  for (std::size_t c = 0; ids && c < cells.nodes.size(); ++c)
-    numbers.push_back((*ids)[cells.file_positions.empty() ? c : cells.file_positions[c]]);
-  return numbers;
-}
-
 /// Adds the reasons to stay that a file says: labelled elements below the cells' dimension, marks,
 /// what it requires (required_nodes() in interfaces.h), and periodic partners.
 void add_reasons(const MeshParts& parts, int dim, std::vector<FixedReasons>& reasons) {
@@ -106,10 +97,10 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
     throw InputError(path.string() + ": " + what);
   };
   if (piece.dim == 2 && !is_planar(parts))
-    refuse("a surface mesh cannot be held in parts; use one file without mpirun");
+    refuse("a surface mesh cannot be handled in parts; use one file without mpirun");
   const ElementList& cells = parts.elements[static_cast<std::size_t>(piece.dim)];
   if (!cells.midside.empty())
-    refuse("a mesh of second order cannot be held in parts; use one file without mpirun");
+    refuse("a mesh of second order cannot be handled in parts; use one file without mpirun");
   std::vector<GlobalIndex> row;
   for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
     row.clear();
@@ -120,7 +111,7 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
   }
   piece.numbers = node_numbers(parts);
   piece.cells = has_tags ? std::vector<std::int64_t>(cells.ids.begin(), cells.ids.end())
-                         : cell_numbers(parts, cells);
+                         : cell_numbers(parts);
   piece.reasons.assign(parts.coordinates.size(), 0);
   add_reasons(parts, piece.dim, piece.reasons);
   piece.has_marks = parts.fixed && !parts.fixes_boundary_as_well;
@@ -270,12 +261,9 @@ void write_whole(const std::filesystem::path& path, const std::vector<NodeEntry<
 
 /// As above, a piece, whose cells were checked when the parts were made.
 template <int dim>
-void write_piece(const std::filesystem::path& path, const std::vector<NodeEntry<dim>>& entries,
-                 const std::filesystem::path& out) {
-  MeshParts parts = read_mesh_parts(path);
-  if (parts.leaves_out_unused_nodes) drop_unused_nodes(parts);
-  if (dimension_of(parts) != dim || parts.coordinates.size() != entries.size())
-    refuse_changed(path);
+void write_piece(const std::filesystem::path& path, MeshParts parts,
+                 const std::vector<NodeEntry<dim>>& entries, const std::filesystem::path& out) {
+  if (dimension_of(parts) != dim) refuse_changed(path);
   std::vector<Point<3>> points;
   std::vector<bool> fixed;
   for (const NodeEntry<dim>& entry : entries) {
@@ -287,6 +275,15 @@ void write_piece(const std::filesystem::path& path, const std::vector<NodeEntry<
 }
 
 }  // namespace
+
+std::vector<std::int64_t> cell_numbers(const MeshParts& parts) {
+  const auto* ids = global_ids(parts.content.element_roles, parts.content.element_fields);
+  const ElementList& cells = parts.elements[static_cast<std::size_t>(dimension_of(parts))];
+  std::vector<std::int64_t> numbers;
+  for (std::size_t c = 0; ids && c < cells.nodes.size(); ++c)
+    numbers.push_back((*ids)[cells.file_positions.empty() ? c : cells.file_positions[c]]);
+  return numbers;
+}
 
 Pieces::Pieces(const Ranks& ranks, const std::filesystem::path& path) : ranks_(ranks), path_(path) {
   files_ = {path};
@@ -433,6 +430,13 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
   return make.template operator()<2>();
 }
 
+MeshParts Pieces::parts(std::size_t piece) const {
+  MeshParts parts = read_mesh_parts(files_[piece]);
+  if (parts.leaves_out_unused_nodes) drop_unused_nodes(parts);
+  if (parts.coordinates.size() != nodes(piece).size()) refuse_changed(files_[piece]);
+  return parts;
+}
+
 template <int dim>
 void Pieces::write(const std::filesystem::path& out,
                    const NodeDirectory<NodeEntry<dim>>& directory) const {
@@ -443,20 +447,15 @@ void Pieces::write(const std::filesystem::path& out,
     if (ranks_.is_root()) nodes_.front().resize(directory.n());
     std::iota(nodes_.front().begin(), nodes_.front().end(), GlobalIndex{0});
   }
-  const auto n_rounds =
-      static_cast<std::size_t>(ranks_.max(static_cast<double>(last_piece() - first_piece())));
-  for (std::size_t k = 0; k < n_rounds; ++k) {
-    const bool has_piece = first_piece() + k < last_piece();
-    const auto entries = directory.ask(
-        has_piece ? std::span<const GlobalIndex>(nodes_[k]) : std::span<const GlobalIndex>(),
-        [](const NodeEntry<dim>& entry) { return entry; });
+  in_rounds([&](std::optional<std::size_t> p) {
+    const auto entries = directory.ask(p ? nodes(*p) : std::span<const GlobalIndex>(),
+                                       [](const NodeEntry<dim>& entry) { return entry; });
     ranks_.together([&] {
-      if (!has_piece) return;
-      const std::size_t p = first_piece() + k;
-      kind_ == Kind::vtk ? write_piece<dim>(files_[p], entries, piece_file(out, p))
-                         : write_whole<dim>(files_[p], entries, out);
+      if (!p) return;
+      kind_ == Kind::vtk ? write_piece<dim>(files_[*p], parts(*p), entries, piece_file(out, *p))
+                         : write_whole<dim>(files_[*p], entries, out);
     });
-  }
+  });
   ranks_.together([&] {
     if (!ranks_.is_root() || kind_ != Kind::vtk) return;
     write_piece_list(out, files_.size());
@@ -466,30 +465,28 @@ void Pieces::write(const std::filesystem::path& out,
 template <int dim>
 void Pieces::write_gmsh_parts(const std::filesystem::path& out,
                               const NodeDirectory<NodeEntry<dim>>& directory) const {
-  const auto n_rounds =
-      static_cast<std::size_t>(ranks_.max(static_cast<double>(last_piece() - first_piece())));
-  for (std::size_t p = first_piece(); p < first_piece() + n_rounds; ++p) {
+  in_rounds([&](std::optional<std::size_t> p) {
     // Also nodes that only copies of other parts' cells have.
     std::optional<MshNodeFile> file;
     std::vector<GlobalIndex> numbers;
     ranks_.together([&] {
-      if (p >= last_piece()) return;
-      file.emplace(files_[p]);
+      if (!p) return;
+      file.emplace(files_[*p]);
       for (const std::uint64_t tag : file->tags())
         if (tag < directory.n()) numbers.push_back(static_cast<GlobalIndex>(tag));
     });
     const auto entries = directory.ask(numbers, [](const NodeEntry<dim>& entry) { return entry; });
     ranks_.together([&] {
-      if (!file) return;
+      if (!p) return;
       auto entry = entries.begin();
-      file->write(msh_part_file(out, static_cast<int>(p) + 1), dim,
+      file->write(msh_part_file(out, static_cast<int>(*p) + 1), dim,
                   [&](std::size_t i) -> const double* {
                     if (file->tags()[i] >= directory.n()) return nullptr;
                     const NodeEntry<dim>& node = *entry++;
                     return node.owner < 0 ? nullptr : node.x.data();
                   });
     });
-  }
+  });
 }
 
 std::filesystem::path piece_file(const std::filesystem::path& out, std::size_t piece) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "distributed/file_blocks.h"
 
 namespace smoothfem {
+
+struct MeshParts;  // meshes/io/mesh_assembly.h
 
 /// Returns the first of the pieces that a rank handles, or the end if rank is the number of ranks.
 /// Shares are rounded up, so that the first rank has a piece.
@@ -52,6 +55,28 @@ class Pieces {
   /// one sentence each, on the root.
   const std::vector<std::string>& notes() const { return notes_; }
 
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+  /// This rank's pieces are first_piece() .. last_piece() - 1.
+  std::size_t first_piece() const { return first_piece_of(ranks_, ranks_.rank(), files_.size()); }
+  std::size_t last_piece() const {
+    return first_piece_of(ranks_, ranks_.rank() + 1, files_.size());
+  }
+  /// Calls visit(p) for the pieces of this rank, and visit(nothing) when others have more, so that
+  /// all ranks make the same number of calls.
+  template <class Visit>
+  void in_rounds(const Visit& visit) const {
+    const auto n =
+        static_cast<std::size_t>(ranks_.max(static_cast<double>(last_piece() - first_piece())));
+    for (std::size_t k = 0; k < n; ++k)
+      visit(first_piece() + k < last_piece() ? std::optional(first_piece() + k) : std::nullopt);
+  }
+  /// Reads a piece of this rank once more, after read(). Throws InputError if it has other nodes.
+  MeshParts parts(std::size_t piece) const;
+  /// Returns the numbers of its nodes in the whole mesh, after read().
+  std::span<const GlobalIndex> nodes(std::size_t piece) const {
+    return nodes_[piece - first_piece()];
+  }
+
   /// Writes pieces with new coordinates, and all else as it is in the files: out.pvtu, and the
   /// pieces as out/out_NNNN.vtu; Gmsh's files from out.msh or out_1.msh as out_1.msh, out_2.msh,
   /// ...; the only piece of another file as `out`. directory: with coordinates and reasons to stay
@@ -61,11 +86,6 @@ class Pieces {
              const NodeDirectory<NodeEntry<dim>>& directory) const;
 
  private:
-  std::size_t first_piece() const { return first_piece_of(ranks_, ranks_.rank(), files_.size()); }
-  std::size_t last_piece() const {
-    return first_piece_of(ranks_, ranks_.rank() + 1, files_.size());
-  }
-
   /// Kinds of files, by what their pieces are.
   enum class Kind { whole, vtk, gmsh };
 
@@ -82,6 +102,9 @@ class Pieces {
   mutable std::optional<FileBlocks> blocks_;  ///< of a file that is read in blocks
   mutable std::vector<std::string> notes_;
 };
+
+/// Returns the numbers of a piece's cells in the whole mesh; empty if the file has none.
+std::vector<std::int64_t> cell_numbers(const MeshParts& parts);
 
 /// Writes the file that lists the pieces at piece_file(), and the arrays of the first one.
 void write_piece_list(const std::filesystem::path& out, std::size_t n_pieces);

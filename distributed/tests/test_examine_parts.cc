@@ -8,7 +8,7 @@
 #include "distributed/examine_parts.h"
 #include "distributed/pieces.h"
 #include "distributed/split.h"
-#include "distributed/tests/shared_folder.h"
+#include "distributed/tests/folder.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/tests/faulty_meshes.h"
 
@@ -212,7 +212,7 @@ Examination examined_file(const std::filesystem::path& path) {
 
 /// Numbers are those of the file, as for one process, also of a node that no element has.
 TEST(ExamineParts, NamesTheNumbersOfTheFile) {
-  const test::SharedFolder folder("smoothfem_examine");
+  const test::Folder folder;
   const auto box = test::box_mesh(3, 2, 4, BoxCells::tetrahedra);
   MeshParts parts = sick_parts(box);
   parts.coordinates.emplace_back(9, 9, 9);

@@ -7,7 +7,7 @@
 #include "distributed/examine_parts.h"
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
-#include "distributed/tests/shared_folder.h"
+#include "distributed/tests/folder.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/io/gmsh/msh_parts.h"
 #include "meshes/io/mesh_assembly.h"
@@ -30,7 +30,7 @@ struct Variant {
 
 /// A square or a box with groups of elements of two dimensions, whose tags do not begin at 1.
 /// Writes whole.msh, and parts.msh in files.
-void write_files(const test::SharedFolder& folder, const Variant& variant) {
+void write_files(const test::Folder& folder, const Variant& variant) {
   all_ranks().on_root([&] {
     GmshSession session;
     session.set_option("Mesh.MeshSizeMax", 0.3);
@@ -76,7 +76,7 @@ std::map<std::size_t, Point<3>> nodes_by_tag(const fs::path& path) {
 }
 
 TEST(GmshParts, AreTheWholeMesh) {
-  const test::SharedFolder folder("smoothfem_gmsh_parts");
+  const test::Folder folder;
   for (const Variant& variant : {Variant{3, false, false, true}, Variant{3, true, true, true},
                                  Variant{3, false, true, false}, Variant{2, true, true, true},
                                  Variant{2, false, false, false}}) {
@@ -112,7 +112,7 @@ TEST(GmshParts, AreTheWholeMesh) {
 }
 
 TEST(GmshParts, AreExaminedAsOneMesh) {
-  const test::SharedFolder folder("smoothfem_gmsh_parts");
+  const test::Folder folder;
   write_files(folder, {3, true, true, true});
   auto read = Pieces(all_ranks(), folder / "parts_1.msh").read(ReadFor::examination);
   const auto seen = examine_parts(all_ranks(), std::move(std::get<ScatteredMesh<3>>(read)));
@@ -125,7 +125,7 @@ TEST(GmshParts, AreExaminedAsOneMesh) {
 }
 
 TEST(GmshParts, AllFilesMustBeThere) {
-  const test::SharedFolder folder("smoothfem_gmsh_parts");
+  const test::Folder folder;
   write_files(folder, {2, true, false, true});
   const auto error_with = [&](const char* name) {
     (void)all_ranks().any(false);

@@ -14,8 +14,8 @@
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
 #include "distributed/split.h"
+#include "distributed/tests/folder.h"
 #include "distributed/tests/scattered.h"
-#include "distributed/tests/shared_folder.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/smooth.h"
@@ -30,6 +30,8 @@ namespace fs = std::filesystem;
 using test::all_ranks;
 using test::box_mesh;
 using test::BoxCells;
+using test::content_of;
+using test::Folder;
 using test::grid_mesh;
 using test::GridCells;
 using testing::HasSubstr;
@@ -244,15 +246,6 @@ TEST(Parts, NumberSetsKnowPositions) {
   EXPECT_THAT(set.numbers(), testing::ElementsAre(0, 63, 64, 130, 199));
   EXPECT_EQ(set.position(64), 2u);
   EXPECT_EQ(set.position(199), 4u);
-}
-
-struct Folder : test::SharedFolder {
-  Folder() : SharedFolder("smoothfem_parts") {}
-};
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 VolumeMesh smoothed_pieces(const Ranks& ranks, const fs::path& in, const fs::path& out) {

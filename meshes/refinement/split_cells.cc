@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/refinement/split_cells.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
+#include <utility>
+
+#include "meshes/io/losses.h"
+#include "smoothing/mesh/fixed_nodes.h"
 
 namespace smoothfem {
 
@@ -105,16 +110,19 @@ const std::array<Octahedron, 3>& octahedra() {
 template <int dim>
 class Splitting {
  public:
-  explicit Splitting(const Mesh<dim>& mesh) : mesh_(mesh), points_(mesh.copied_coordinates()) {}
+  Splitting(const Mesh<dim>& mesh, std::span<const std::uint32_t> numbers)
+      : mesh_(mesh), numbers_(numbers), points_(mesh.copied_coordinates()) {}
 
-  Mesh<dim> split() {
+  SplitCells<dim> split() {
     const Topology& topology = mesh_.topology();
     const MeshLabels& labels = topology.labels();
     MeshLabels of_parts;
     of_parts.names = labels.names;
+    std::vector<CellIndex> origins;
     for (CellIndex c = 0; c < topology.n_cells(); ++c) {
       const std::size_t before = cells_.size();
       split_cell(topology.cell_nodes(c), topology.cell_type(c));
+      origins.insert(origins.end(), cells_.size() - before, c);
       if (!labels.cell_tags.empty())
         of_parts.cell_tags.insert(of_parts.cell_tags.end(), cells_.size() - before,
                                   labels.cell_tags[c]);
@@ -125,13 +133,29 @@ class Splitting {
       of_parts.facet_tags.insert(of_parts.facet_tags.end(), of_parts.facets.size() - before,
                                  labels.facet_tags[f]);
     }
-    auto split = std::make_shared<const Topology>(dim, points_.size(), std::move(cells_),
-                                                  std::nullopt, std::move(of_parts));
-    return {std::move(split), std::move(points_)};
+    of_parts.content = content_of_parts(labels.content.get());
+    return {std::move(points_), std::move(means_), std::move(cells_), std::move(origins),
+            std::move(of_parts)};
   }
 
  private:
   using Nodes = std::span<const NodeIndex>;
+
+  /// Returns the plane of a planar mesh in space, in which existing nodes keep their points.
+  std::shared_ptr<const FileContent> content_of_parts(const FileContent* content) const {
+    if constexpr (dim == 2)
+      if (content && content->plane) {
+        PlaneInSpace plane = *content->plane;
+        auto initial = std::exchange(plane.initial, {});
+        for (auto i = static_cast<NodeIndex>(initial.size()); i > 0 && i < points_.size(); ++i)
+          initial.push_back(plane.in_space(i, points_[i]));
+        plane.initial = std::move(initial);
+        FileContent result;
+        result.plane = std::move(plane);
+        return std::make_shared<const FileContent>(std::move(result));
+      }
+    return nullptr;
+  }
 
   void split_cell(Nodes nodes, ElementType type) {
     static const Parts triangle = parts_of_triangle(), square = parts_of_box(4),
@@ -208,31 +232,103 @@ class Splitting {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if ((corners >> i & 1U) != 0) key[n++] = nodes[i];
     if (n == 1) return key[0];
-    std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(n));
+    const auto is_before = [&](NodeIndex a, NodeIndex b) {
+      return numbers_.empty() ? a < b : numbers_[a] < numbers_[b];
+    };
+    std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(n), is_before);
     const auto [found, is_new] =
         new_nodes_.try_emplace(key, static_cast<NodeIndex>(points_.size()));
     if (is_new) {
       Point<dim> sum = Point<dim>::Zero();
       for (std::size_t i = 0; i < n; ++i) sum += points_[key[i]];
       points_.push_back(sum / static_cast<double>(n));
+      means_.append(std::span(key).first(n));
     }
     return found->second;
   }
 
   const Mesh<dim>& mesh_;
+  std::span<const std::uint32_t> numbers_;
   std::vector<Point<dim>> points_;
-  CompressedRows<NodeIndex> cells_;
+  CompressedRows<NodeIndex> means_, cells_;
   std::map<std::array<NodeIndex, 8>, NodeIndex> new_nodes_;
 };
 
 }  // namespace
 
 template <int dim>
-Mesh<dim> with_split_cells(const Mesh<dim>& mesh) {
+SplitCells<dim> split_cells(const Mesh<dim>& mesh, std::span<const std::uint32_t> numbers) {
   require_linear(mesh.topology(), "splitting");
-  return Splitting<dim>(mesh).split();
+  return Splitting<dim>(mesh, numbers).split();
 }
+
+namespace {
+
+template <int dim>
+Mesh<dim> mesh_of(SplitCells<dim> split) {
+  auto topology = std::make_shared<const Topology>(dim, split.points.size(), std::move(split.cells),
+                                                   std::nullopt, std::move(split.labels));
+  return {std::move(topology), std::move(split.points)};
+}
+
+}  // namespace
+
+template <int dim>
+Mesh<dim> with_split_cells(const Mesh<dim>& mesh) {
+  return mesh_of(split_cells(mesh));
+}
+
+template <int dim>
+Mesh<dim> refined(const Mesh<dim>& mesh) {
+  SplitCells<dim> split = split_cells(mesh);
+  const CompressedRows<NodeIndex> means = std::move(split.means);
+  Mesh<dim> result = mesh_of(std::move(split));
+  std::vector<bool> stays;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    stays.push_back(mesh.topology().fixed_reasons(i) != 0);
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const auto mean = means[i];
+    stays.push_back(
+        result.topology().on_boundary()[mesh.n_nodes() + i] &&
+        std::all_of(mean.begin(), mean.end(), [&](NodeIndex node) -> bool { return stays[node]; }));
+  }
+  return with_fixed_nodes(std::move(result), stays);
+}
+
+std::vector<std::string> losses_of_splitting(const MeshLabels& labels) {
+  std::vector<std::string> lost;
+  const auto add = [&](bool is_lost, const std::string& what) {
+    if (is_lost) lost.push_back(what);
+  };
+  add(!labels.node_ids.empty() || !labels.cell_ids.empty(),
+      "the file's numbers of nodes and cells");
+  if (!labels.content) return lost;
+  const FileContent& content = *labels.content;
+  const auto is_number = [](const MeshField& field, const auto& roles) {
+    const auto role = roles.find("GlobalIds");
+    return role != roles.end() && role->second == field.name;
+  };
+  for (const MeshField& field : content.node_fields)
+    add(!is_number(field, content.node_roles), "the field " + field.name);
+  for (const MeshField& field : content.element_fields)
+    add(!is_number(field, content.element_roles) && field.name != content.tag_field &&
+            !is_own_field(field),
+        "the field " + field.name);
+  for (const MeshField& field : content.file_fields) add(true, "the field " + field.name);
+  add(std::any_of(content.others.begin(), content.others.end(),
+                  [](const OtherElements& others) { return !others.nodes.empty(); }),
+      "elements that are neither cells nor labelled facets");
+  add(!content.periodic.empty(), "periodic partners");
+  add(!content.entities.empty(), "entities of the model");
+  for (const std::string& name : content.section_names) add(true, name);
+  return lost;
+}
+
+template SplitCells<2> split_cells(const Mesh<2>&, std::span<const std::uint32_t>);
+template SplitCells<3> split_cells(const Mesh<3>&, std::span<const std::uint32_t>);
 template Mesh<2> with_split_cells(const Mesh<2>&);
 template Mesh<3> with_split_cells(const Mesh<3>&);
+template Mesh<2> refined(const Mesh<2>&);
+template Mesh<3> refined(const Mesh<3>&);
 
 }  // namespace smoothfem

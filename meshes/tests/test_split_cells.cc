@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "meshes/io/mesh_view.h"
 #include "meshes/refinement/split_cells.h"
 #include "smoothing/geometry/cell_size.h"
 #include "smoothing/quality/mesh_quality.h"
@@ -48,6 +49,25 @@ TEST(SplitCells, OfASquareHaveItsMiddle) {
       has_middle |= split.coordinates()[node] == Point<2>(1, 1);
     EXPECT_TRUE(has_middle) << c;
   }
+}
+
+/// 0.1 + 1.2 + 1.3 + 0.4 differs from the sum in the reverse order in the last bit.
+TEST(SplitCells, HaveMeansInTheOrderOfNumbers) {
+  const PlanarMesh mesh = test::make_mesh({{0.1, 0}, {1.2, 0}, {1.3, 1}, {0.4, 1}}, {{0, 1, 2, 3}});
+  const std::vector<std::uint32_t> numbers{13, 12, 11, 10};
+  const auto split = split_cells(mesh, numbers), plain = split_cells(mesh);
+  ASSERT_EQ(split.means.size(), 5u);
+  EXPECT_THAT(split.means[0], ElementsAre(1, 0));
+  EXPECT_THAT(plain.means[0], ElementsAre(0, 1));
+  const auto middle = [](const auto& of) {
+    for (std::size_t i = 0; i < 5; ++i)
+      if (of.means[i].size() == 4) return of.points[4 + i][0];
+    return 0.0;
+  };
+  EXPECT_EQ(middle(split), (0.4 + 1.3 + 1.2 + 0.1) / 4.0);
+  EXPECT_EQ(middle(plain), (0.1 + 1.2 + 1.3 + 0.4) / 4.0);
+  EXPECT_NE(middle(split), middle(plain));
+  EXPECT_THAT(split.origins, ElementsAre(0, 0, 0, 0));
 }
 
 TEST(SplitCells, FillTheMeshInThePlane) {
@@ -103,6 +123,50 @@ TEST(SplitCells, PartsInheritTags) {
   EXPECT_EQ(found.facets[0][1], found.facets[1][0]);
   EXPECT_EQ(split.coordinates()[found.facets[0][1]], Point<2>(1, 0));
   EXPECT_EQ(found.names, labels.names);
+}
+
+/// Node 4 in the middle is marked, node 2 on the boundary is not.
+TEST(SplitCells, NodesThatStayDoSoInTheRefinedMesh) {
+  const PlanarMesh mesh = test::make_mesh({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}},
+                                          {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}},
+                                          std::vector{true, true, false, true, true});
+  const PlanarMesh found = refined(mesh);
+  for (NodeIndex i = 0; i < found.n_nodes(); ++i) {
+    const Point<2> p = found.coordinates()[i];
+    EXPECT_EQ(found.topology().is_fixed(i), p[0] == 0 || p[1] == 0 || (p[0] == 1 && p[1] == 1))
+        << p.transpose();
+  }
+}
+
+/// Node 2 is off the plane z = 5 by rounding.
+TEST(SplitCells, StayInThePlaneOfTheMesh) {
+  FileContent content;
+  content.plane.emplace();
+  content.plane->origin = {0, 0, 5};
+  content.plane->initial = {{0, 0, 5}, {2, 0, 5}, {0, 2, 5.0000000000000009}};
+  MeshLabels labels;
+  labels.content = std::make_shared<const FileContent>(content);
+  const PlanarMesh split = with_split_cells(PlanarMesh(
+      std::make_shared<const Topology>(2, 3, test::rows_of({{0, 1, 2}}), std::nullopt, labels),
+      {{0, 0}, {2, 0}, {0, 2}}));
+  const MeshView view(split);
+  EXPECT_EQ(view.point(2), content.plane->initial[2]);
+  EXPECT_EQ(view.point(3), Point<3>(1, 0, 5));
+}
+
+TEST(SplitCells, LossesAreNamed) {
+  FileContent content;
+  content.node_fields = {{.name = "number"}, {.name = "pressure"}};
+  content.node_roles["GlobalIds"] = "number";
+  content.element_fields = {{.name = "material"}};
+  content.tag_field = "material";
+  content.others[0].nodes.append(std::array<NodeIndex, 1>{3});
+  MeshLabels labels;
+  EXPECT_THAT(losses_of_splitting(labels), ElementsAre());
+  labels.content = std::make_shared<const FileContent>(content);
+  EXPECT_THAT(
+      losses_of_splitting(labels),
+      ElementsAre("the field pressure", "elements that are neither cells nor labelled facets"));
 }
 
 TEST(SplitCells, RefusesPolygons) {

@@ -167,13 +167,17 @@ std::vector<CellsBelow> count_cells_below(const Mesh<dim, spacedim>& mesh,
   std::vector<CellsBelow> counts;
   if (thresholds.empty()) return counts;
   const auto quality = cell_mean_ratios(mesh);
+  const MeshPart* const part = mesh.topology().part();
   for (const double threshold : thresholds) {
     auto& count = counts.emplace_back(CellsBelow{.threshold = threshold});
     for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
-      if (!(quality[c] < threshold)) continue;
+      if (!(quality[c] < threshold) || (part && !part->owns_cell(c))) continue;
       ++count.n;
       if (mesh.topology().has_free_node(c)) ++count.n_star;
     }
+    if (part == nullptr) continue;
+    count.n = part->sum(count.n);
+    count.n_star = part->sum(count.n_star);
   }
   return counts;
 }

@@ -62,6 +62,9 @@ bool examine_pieces(const std::string& mesh, Examination& seen) {
 void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& out) {
   call_on_pieces("smoothfem_split_mesh", mesh, n_pieces, out);
 }
+void refine_pieces(const std::string& in, const std::string& out, bool quiet) {
+  call_on_pieces("smoothfem_refine_pieces", in, out, quiet);
+}
 void generate_box(const BoxArguments& arguments) {
   call_on_pieces("smoothfem_generate_box", arguments);
 }

@@ -13,6 +13,7 @@
 #include "distributed/examine_parts.h"
 #include "distributed/partition.h"
 #include "distributed/pieces.h"
+#include "distributed/refine.h"
 #include "distributed/split.h"
 #include "fem/poisson_solver.h"
 #include "fem/ranks/mpi_session.h"
@@ -26,6 +27,7 @@
 #include "studies/cli/iteration_log.h"
 #include "studies/cli/mesh_notes.h"
 #include "studies/cli/piece_commands.h"
+#include "studies/cli/smooth_notes.h"
 
 namespace smoothfem {
 
@@ -413,6 +415,22 @@ void smoothfem_generate_box(const smoothfem::BoxArguments& arguments) {
     if (ranks.is_root() && !arguments.quiet)
       std::printf("%s: %zu cells in %zu pieces\n", arguments.out.c_str(), n_cells,
                   std::min(arguments.n_pieces, counts.back()));
+  });
+}
+
+void smoothfem_refine_pieces(const std::string& in, const std::string& out, const bool& quiet) {
+  using namespace smoothfem;
+  on_ranks([&](const Ranks& ranks) {
+    share_cores(0);
+    ranks.together([&] {
+      if (ranks.is_root()) require_writable_file(out);
+    });
+    const RefinedPieces refined = refine_pieces(ranks, in, out);
+    if (!ranks.is_root()) return;
+    print_left_out(in, refined.losses);
+    if (!quiet)
+      std::printf("%s: %zu cells in %zu %s\n", out.c_str(), refined.n_cells, refined.n_pieces,
+                  refined.n_pieces == 1 ? "piece" : "pieces");
   });
 }
 

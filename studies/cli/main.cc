@@ -53,7 +53,7 @@ int run(int argc, char** argv) {
                                         std::string(registers()) + ")");
   app.require_subcommand(1);
   // Processes of mpirun share the work of these commands; other commands are for one process.
-  constexpr std::array shared{"study", "smooth", "quality", "check", "generate"};
+  constexpr std::array shared{"study", "smooth", "quality", "check", "generate", "convert"};
   if (argc > 1 && !is_first_process() &&
       std::find(shared.begin(), shared.end(), std::string_view(argv[1])) == shared.end())
     return 0;

@@ -41,6 +41,8 @@ void generate_box(const BoxArguments& arguments);
 bool examine_pieces(const std::string& mesh, Examination& seen);
 /// Writes a whole mesh in pieces (distributed/split.h).
 void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& out);
+/// Splits the cells of a mesh in pieces (distributed/refine.h).
+void refine_pieces(const std::string& in, const std::string& out, bool quiet);
 
 }  // namespace smoothfem
 
@@ -53,6 +55,7 @@ void smoothfem_examine_pieces(const std::string& mesh, smoothfem::Examination& s
 void smoothfem_generate_box(const smoothfem::BoxArguments& arguments);
 void smoothfem_split_mesh(const smoothfem::AnyMesh& mesh, const std::size_t& n_pieces,
                           const std::string& out);
+void smoothfem_refine_pieces(const std::string& in, const std::string& out, const bool& quiet);
 /// A function of the module of studies: reads --finite-elements.
 void smoothfem_read_finite_elements(const std::vector<std::string>& settings,
                                     smoothfem::PoissonOptions& options);

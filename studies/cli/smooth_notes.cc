@@ -31,6 +31,10 @@ void print_losses(const std::filesystem::path& path, const MeshView& mesh,
     print_notes(path.string(), {"the file cannot hold, and leaves out: " + joined(lost)});
 }
 
+void print_left_out(const std::filesystem::path& path, const std::vector<std::string>& losses) {
+  if (!losses.empty()) print_notes(path.string(), {"refinement leaves out: " + joined(losses)});
+}
+
 std::string fields_text(const FileContent* content) {
   std::vector<std::string> names;
   for (const auto* fields :

@@ -16,6 +16,9 @@ namespace smoothfem {
 void print_losses(const std::filesystem::path& path, const MeshView& mesh,
                   const MeshWriteOptions& options);
 
+/// Prints one note that names what a refined mesh does not have, if anything.
+void print_left_out(const std::filesystem::path& path, const std::vector<std::string>& losses);
+
 /// Returns a sentence on the fields of the file that pass through; empty if there are none.
 std::string fields_text(const FileContent* content);
 

@@ -61,6 +61,45 @@ TEST_F(CommandLine, OnlyBelowMovesNodesNearBadCellsOnly) {
   EXPECT_THAT(refused.err, HasSubstr("no cell has a mean ratio below 0.1"));
 }
 
+/// A mesh of 9 squares, as a whole and in pieces: the refined one has 36. Its fields are named.
+TEST_F(CommandLine, MeshesAreRefined) {
+  const PlanarMesh grid = shaken_grid(3, 0.2);
+  write_mesh(file("whole.vtu"), grid, {{}, {{"heat", std::vector<double>(16, 1.0)}}});
+  ASSERT_EQ(smoothfem({"convert", "whole.vtu", "in.pvtu", "--pieces", "2"}).exit_code, 0);
+  const Outcome whole = smoothfem({"convert", "whole.vtu", "finer.vtu", "--refine"});
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_THAT(whole.out, HasSubstr("49 nodes, 36 cells"));
+  const Outcome pieces = smoothfem_on_ranks(2, {"convert", "in.pvtu", "finer.pvtu", "--refine"});
+  EXPECT_EQ(pieces.exit_code, 0) << pieces.err;
+  EXPECT_EQ(pieces.out, "finer.pvtu: 36 cells in 2 pieces\n");
+  EXPECT_EQ(read_planar(file("finer.pvtu")).mesh.n_cells(), 36u);
+  for (const Outcome& outcome : {whole, pieces})
+    EXPECT_THAT(outcome.err, HasSubstr("refinement leaves out: the field heat\n"));
+  // The inner nodes of the refined mesh are free, new ones, too.
+  EXPECT_EQ(read_planar(file("finer.vtu")).mesh.topology().free_nodes().size(), 25u);
+}
+
+TEST_F(CommandLine, RefinementSaysWhatToDo) {
+  write_mesh(file("whole.vtu"), shaken_grid(3, 0.2));
+  const auto refused = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "convert");
+    words.push_back("--refine");
+    const Outcome outcome = smoothfem(words);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(refused({"whole.vtu", "out.pvtu"}),
+              HasSubstr("make one by 'smoothfem convert whole.vtu pieces.pvtu --pieces N'"));
+  EXPECT_THAT(refused({"in.pvtu", "out.pvtu", "--pieces", "3"}), HasSubstr("--pieces"));
+  file_with("surface.mesh",
+            "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+            "0 0 1 0\nTriangles\n4\n1 3 2 0\n1 2 4 0\n2 3 4 0\n1 4 3 0\nEnd\n");
+  EXPECT_THAT(refused({"surface.mesh", "out.vtu"}), HasSubstr("surface meshes cannot be refined"));
+  EXPECT_FALSE(std::filesystem::exists(file("out.pvtu")) ||
+               std::filesystem::exists(file("out.vtu")));
+}
+
 TEST_F(CommandLine, DryRunPrintsThePlanAndWritesNothing) {
   write_mesh(file("grid.vtu"), shaken_grid(6, 0.2));
   file_with("my.prm",

@@ -274,8 +274,8 @@ TEST_F(StudyFile, MessagesShowTheCorrectForm) {
   expect_error_at(5, one_mesh + "set degree = 1\n",
                   "there is no key 'degree' here; did you mean 'degrees'?");
   expect_error_at(7,
-                  one_mesh + "set scales = quick\nsubsection scale quick\n set degrees = 1\nend\n",
-                  "there is no key 'degrees' here; it is for another part of the file;");
+                  one_mesh + "set scales = quick\nsubsection scale quick\n set metrics = all\nend\n",
+                  "there is no key 'metrics' here; it is for another part of the file;");
   expect_error_at(5, one_mesh + "subsection solutions\nend\n", "did you mean 'solution'?");
   expect_error_at(5, one_mesh + "subsection mesh gear-of-mine\nend\n",
                   "'set meshes' does not name 'gear-of-mine', which has a subsection here; add it");
@@ -295,6 +295,24 @@ TEST_F(StudyFile, MessagesShowTheCorrectForm) {
   expect_error_at(5, one_mesh + "include nothing.prm\n",
                   "cannot read the file '" + file("nothing.prm").string() + "'");
   expect_error(one_mesh + "subsection solution\n", "a subsection has no end");
+}
+
+TEST_F(StudyFile, MeshesInPartsRefuseWhatNeedsTheWhole) {
+  const std::string in_parts = one_mesh + "set in parts = true\n";
+  expect_error(in_parts, "'degrees' has 2, which does not work with 'set in parts = true'");
+  const std::string linear = in_parts + "set degrees = 1\n";
+  EXPECT_TRUE(read(linear).in_parts);
+  expect_error(linear + "set metrics = all\n", "the study has 'metrics'");
+  expect_error(linear + "set methods = energy-descent\n",
+               "the study has the method energy-descent");
+  expect_error(linear + "set methods = energy-descent\n", "take one of getme, ");
+  expect_error(linear + "subsection solution\n set natural = group left\nend\n", "'natural'");
+  expect_error(one_mesh + "set refine = 1\n", "'refine' works on a mesh in parts");
+  const Study huge = read_study(find_study("volume"), "huge");
+  EXPECT_TRUE(huge.in_parts);
+  EXPECT_EQ(huge.refine, 1);
+  EXPECT_EQ(huge.degrees, std::vector{1});
+  EXPECT_FALSE(read_study(find_study("volume")).in_parts);
 }
 
 TEST_F(StudyFile, IncludesFilesNextToIt) {

@@ -182,6 +182,46 @@ void check_thresholds(const Study& study) {
                      "' is not one of the study's methods");
 }
 
+/// Throws InputError for what does not work on meshes in parts.
+void check_parts(const Study& study) {
+  if (!study.in_parts && study.refine > 0)
+    throw InputError(
+        "'refine' works on a mesh in parts; write 'set in parts = true', or leave it out");
+  if (!study.in_parts) return;
+  const auto refuse = [](const std::string& what, const std::string& instead) {
+    throw InputError(what + ", which does not work with 'set in parts = true'; " + instead);
+  };
+  const std::string leave_out = "take one of them out";
+  if (study.dimensions.space > study.dimensions.cells)
+    refuse("the study is about surface meshes", leave_out);
+  for (const int degree : study.degrees)
+    if (degree != 1) refuse("'degrees' has " + std::to_string(degree), "write 'set degrees = 1'");
+  const std::pair<bool, const char*> given[]{
+      {!study.refined_degrees.empty(), "'refined degrees'"},
+      {!study.solvers.empty(), "'solvers'"},
+      {!study.metrics.empty(), "'metrics'"},
+      {study.write_series, "'write series'"},
+      {study.record_warpage, "'record warpage'"},
+      {study.constrain_hanging_nodes, "'hanging nodes = constrain'"},
+      {study.constrain_periodic_nodes, "'periodic = constrain'"},
+      {!study.finite_elements.natural_groups.empty(), "'natural'"}};
+  for (const auto& [is_given, key] : given)
+    if (is_given) refuse("the study has " + std::string(key), leave_out);
+  for (const StudySolution* solution : solutions_of(study))
+    if (solution->has_materials()) refuse("the solution has a diffusivity of groups", leave_out);
+  for (const auto& mesh : study.meshes)
+    if (mesh.order == 2) refuse("mesh " + mesh.name + " has 'order = 2'", leave_out);
+  with_dimension(study.dimensions.cells, [&]<int dim>() {
+    for (const auto& method : study.methods) {
+      if (method.interfaces != InterfaceRule::fixed || method.target)
+        refuse("method " + method.name + " has a rule for interfaces or a target", leave_out);
+      if (!method.is_stand_in && !works_in_parts(method.make<dim>()))
+        refuse("the study has the method " + method.name,
+               "leave it out, or take one of " + joined(methods_for_parts<dim, dim>()));
+    }
+  });
+}
+
 }  // namespace
 
 void check_labels(std::vector<std::string> labels, const std::string& what,
@@ -205,6 +245,7 @@ void check_study(const Study& study) {
   check_degrees("refined degrees", study.refined_degrees, study);
   check_degrees("record degrees", study.record_degrees, study);
   check_thresholds(study);
+  check_parts(study);
 }
 
 }  // namespace smoothfem

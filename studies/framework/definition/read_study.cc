@@ -33,6 +33,15 @@ std::vector<std::string> method_labels(const std::string& list, MeshDimensions d
   return names;
 }
 
+/// Leaves only methods that work on meshes in parts.
+void leave_methods_for_parts(Study& study) {
+  with_dimensions(study.dimensions, [&]<int dim, int spacedim>() {
+    std::erase_if(study.methods, [](const StudyMethod& method) {
+      return !works_in_parts(method.make<dim, spacedim>());
+    });
+  });
+}
+
 /// Returns the numbers of "sequential: 10, ..."; deal.II has checked them.
 std::map<std::string, int> stage_numbers(const std::string& text) {
   std::map<std::string, int> numbers;
@@ -193,6 +202,8 @@ void read_problem(ParameterHandler& p, const StudyText& text, Study& study) {
     study.count_below.push_back(std::stod(item));
   study.metrics = read_metrics(p.get("metrics"), file);
   study.write_series = p.get_bool("write series");
+  study.in_parts = p.get_bool("in parts");
+  study.refine = static_cast<int>(p.get_integer("refine"));
   auto of_groups = read_group_diffusivities(p, "solution");
   {
     const Subsection subsection(p, "solution");
@@ -254,15 +265,22 @@ std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std
 
 /// Parameters without the study's kind and without newer keys that have their default. So results
 /// resume that are older than kinds, surfaces, derived solutions, diffusivities, natural
-/// conditions, several solutions, constraints, solvers, rules for interfaces and targets.
+/// conditions, several solutions, constraints, solvers, rules for interfaces, targets and parts.
 StudyParameters said_parameters(ParameterHandler& p) {
   auto parameters = all_parameters(p);
-  std::erase_if(parameters, [](const auto& entry) {
+  const auto is_key = [](const std::string& key, const std::string& path) {
+    return path == key || path.ends_with("/" + key);
+  };
+  std::erase_if(parameters, [&](const auto& entry) {
     return entry.first == "kind" ||
            entry == std::pair<std::string, std::string>{"surface", "false"} ||
            entry == std::pair<std::string, std::string>{"hanging nodes", "refuse"} ||
            entry == std::pair<std::string, std::string>{"solvers", poisson_label} ||
            entry == std::pair<std::string, std::string>{"periodic", "prescribe"} ||
+           entry == std::pair<std::string, std::string>{"in parts", "false"} ||
+           (is_key("refine", entry.first) && entry.second == "0") ||
+           (entry.first.starts_with("scale ") && entry.second.empty() &&
+            (is_key("in parts", entry.first) || is_key("degrees", entry.first))) ||
            (entry.first.ends_with("/interfaces") && entry.second == "fixed") ||
            (entry.first.ends_with("/target") && entry.second == "regular") ||
            (entry.second.empty() &&
@@ -504,6 +522,7 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
                                  is_not_run(type_of[method], !plugins.empty()));
     }));
   read_problem(p, text, study);
+  if (study.in_parts && lists.get("methods") == "all") leave_methods_for_parts(study);
   in_file(file,
           [&] { study.solvers = read_solvers(p, text, solvers, dimensions.cells, study.degrees); });
   if (std::find(solvers.begin(), solvers.end(), poisson_label) == solvers.end())

@@ -187,6 +187,8 @@ struct Study {
   std::vector<const Metric*> metrics;  ///< of every recorded mesh, for metrics.csv
   bool write_series = false;           ///< a VTU series for each mesh and method
   bool write_meshes = true;            ///< the resulting meshes with their fields
+  int refine = 0;                      ///< in parts: every cell is split this often into 2^dim
+  bool in_parts = false;  ///< each process has a part of a mesh (distributed/), and none has all
 };
 
 /// True if only the results on this mesh are solved, not the records on the way.

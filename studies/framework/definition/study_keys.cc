@@ -330,6 +330,12 @@ void declare_problem(ParameterHandler& p) {
       "their range, mean and percentiles in every recorded mesh. Empty: none.");
   p.declare_entry("write series", "false", Patterns::Bool(),
                   "Write each method's meshes as a VTU series (.pvd).");
+  p.declare_entry("in parts", "false", Patterns::Bool(),
+                  "Each process that mpirun starts has a part of a mesh, and none has the whole. "
+                  "A mesh that is generated or distorted is still made by one process.");
+  p.declare_entry("refine", "0", Patterns::Integer(0, 10),
+                  "In parts: split every cell into 4 or 8, this many times. Nodes of the boundary "
+                  "stay on the edges and faces of the unrefined mesh.");
   {
     const Subsection subsection(p, "solution");
     p.declare_entry("name", "", Patterns::Anything(),
@@ -432,7 +438,9 @@ void declare_scale(ParameterHandler& p, const std::string& name) {
                   "Replaces the value above; 0: no change.");
   p.declare_entry("meshes", "", Patterns::Anything(),
                   "Meshes to take from the list above; empty: all.");
-  p.declare_entry("seeds", "", Patterns::Anything(), "Replaces the value above; empty: no change.");
+  for (const std::string key : {"seeds", "degrees", "in parts"})
+    p.declare_entry(key, "", Patterns::Anything(), "Replaces the value above; empty: no change.");
+  p.declare_entry("refine", "0", Patterns::Integer(0), "Replaces the value above; 0: no change.");
 }
 
 std::string study_template() {

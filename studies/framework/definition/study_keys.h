@@ -50,7 +50,9 @@ void declare_scale(dealii::ParameterHandler& p, const std::string& name);
 inline const std::string formula_of_solutions = "u as a formula, as in the subsection 'solution'.";
 
 /// Numbers that a scale may change, for apply_scale.
-inline const std::vector<std::string> scaled_numbers{"record every", "edge scale", "timing runs"};
-inline const std::vector<std::string> scaled_lists{"record stages every", "meshes", "seeds"};
+inline const std::vector<std::string> scaled_numbers{"record every", "edge scale", "timing runs",
+                                                     "refine"};
+inline const std::vector<std::string> scaled_lists{"record stages every", "meshes", "seeds",
+                                                   "degrees", "in parts"};
 
 }  // namespace smoothfem

@@ -21,6 +21,7 @@
 #include "studies/framework/results/method_files.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
+#include "studies/framework/run/all_or_nothing.h"
 #include "studies/framework/run/constraints/periodic_nodes.h"
 #include "studies/framework/run/kept/result_names.h"
 #include "studies/framework/run/phase_times.h"
@@ -41,33 +42,39 @@ class StudyRun {
   StudyRun(const Study& study, const StudyOptions& options)
       : study_(study),
         options_(options),
-        team_(options.ranks),
+        team_(study.in_parts ? Ranks() : options.ranks),
         n_workers_(n_solve_workers(study, options)),
-        progress_(options.quiet),
+        progress_(options.quiet || !is_writer()),
         data_{study, solves_of(study),
-              KeptResults(options.kept.empty() ? options.out / kept_folder : options.kept),
+              KeptResults(options.kept.empty() ? options.out / kept_folder : options.kept,
+                          is_writer()),
               started_} {}
 
   void run() {
-    // All of the user's input is checked before the first file is written.
-    require_writable(options_.out);
-    require_published_files(study_, options_.mesh_dir);
-    lock_.emplace(options_.out);
+    // All of the user's input is checked before the first file is written, except meshes that are
+    // made in parts, which are kept at once.
+    write([&] {
+      require_writable(options_.out);
+      require_published_files(study_, options_.mesh_dir);
+      lock_.emplace(options_.out);
+      if (study_.in_parts && options_.force) progress_.say(move_old_results(options_.out));
+    });
     if (!options_.force) earlier_ = read_provenance(options_.out / "provenance.json");
-    require_unchanged_meshes(earlier_, options_.out);
+    write([&] { require_unchanged_meshes(earlier_, options_.out); });
     times_.measure("meshes", [&] {
       prepare_meshes();
       if (!study_.degrees.empty()) {
         require_support_of_ties();
         require_support_of_curved_cells();
       }
-      if (needs_solutions(study_)) make_solutions();
+      if (needs_solutions(study_)) together([&] { make_solutions(); });
     });
     changes_ =
         differences_from(earlier_, study_.header, mesh_facts(), study_.methods, study_.solvers);
     if (earlier_.status == "complete" && changes_.empty() && !options_.retime) {
       report_complete();
-      if (is_alone()) remove_replaced();  // the earlier run may have been killed before it did so
+      // The earlier run may have been killed before it did so.
+      if (is_alone()) write([&] { remove_replaced(); });
       return;
     }
     // A run that makes meshes only has no MPI.
@@ -81,10 +88,24 @@ class StudyRun {
     if (!data_.solves.empty()) times_.measure("finite_elements", [&] { solve(); });
     times_.measure("writing", [&] { write_results(); });
     write_provenance("complete");
-    if (is_alone()) remove_replaced();
+    if (is_alone()) write([&] { remove_replaced(); });
   }
 
  private:
+  /// True for the process that writes the files of results. In a study in parts all processes come
+  /// here; in others the root alone.
+  bool is_writer() const { return !study_.in_parts || options_.ranks.is_root(); }
+
+  /// Runs work that writes files, or depends on files that it writes, on the writer. Collective in
+  /// parts.
+  template <class Work>
+  void write(const Work& work) const {
+    if (study_.in_parts)
+      options_.ranks.on_root(work);
+    else
+      work();
+  }
+
   void report_complete() {
     std::string text = "The results in " + options_.out.string() + " are complete";
     if (earlier_.commit != program_commit())
@@ -107,13 +128,30 @@ class StudyRun {
     progress_.begin("Meshes", study_.meshes.size());
     for (const auto& description : study_.meshes) {
       progress_.update(data_.meshes.size(), description.name);
-      data_.meshes.push_back(prepare_mesh<dim, spacedim>(description, study_, options_.mesh_dir,
-                                                         options_.force ? nullptr : &data_.kept));
+      data_.meshes.push_back(prepared_mesh(description));
       for (const auto& change : data_.meshes.back().changes)
         progress_.say(data_.meshes.back().origin + ": " + change);
       stop_if_interrupted();
     }
     progress_.end();
+  }
+
+  /// Runs work of which each rank may find its own fault, without communication.
+  template <class Work>
+  void together(const Work& work) const {
+    if (study_.in_parts)
+      options_.ranks.together(work);
+    else
+      work();
+  }
+
+  PreparedMesh<dim, spacedim> prepared_mesh(const StudyMesh& description) const {
+    if constexpr (dim == spacedim)
+      if (study_.in_parts)
+        return prepare_mesh_in_parts<dim>(description, study_, options_.mesh_dir, data_.kept,
+                                          options_.ranks);
+    return prepare_mesh<dim, spacedim>(description, study_, options_.mesh_dir,
+                                       options_.force ? nullptr : &data_.kept);
   }
 
   /// Throws InputError if a mesh has constraints that the study's degrees or methods do not
@@ -214,6 +252,7 @@ class StudyRun {
 
   /// Returns the problem that a method moves nodes by; null if the study solves nothing.
   std::shared_ptr<const Problem<spacedim>> problem_of(std::size_t m, const StudyMethod& method) {
+    if (study_.in_parts) return nullptr;
     if constexpr (dim == spacedim) {
       if (const StudySolver* solver = solver_smoothed_for(study_, method))
         return make_solver_problem<dim>(
@@ -248,7 +287,22 @@ class StudyRun {
   /// one.
   void begin_writing() {
     writing_ = true;
-    if (options_.force) progress_.say(move_old_results(options_.out));
+    write([&] { prepare_folder(); });
+    write_provenance("running");
+    for (auto& prepared : data_.meshes) {
+      write_initial_mesh(prepared, options_.out, data_.kept);
+      data_.mesh_contents.push_back(content_of_mesh(prepared));
+    }
+    write_provenance("running");  // now with the checksums
+  }
+
+  static std::string content_of_mesh(const PreparedMesh<dim, spacedim>& prepared) {
+    return prepared.parts ? prepared.parts->content() : mesh_content(prepared.mesh, prepared);
+  }
+
+  /// Makes the folder of results ready for this run.
+  void prepare_folder() {
+    if (options_.force && !study_.in_parts) progress_.say(move_old_results(options_.out));
     if (earlier_.status.empty()) {
       make_results_folder(options_.out, lock_);
     } else {
@@ -262,12 +316,6 @@ class StudyRun {
         remove_outdated_files();
       }
     }
-    write_provenance("running");
-    for (auto& prepared : data_.meshes) {
-      write_initial_mesh(prepared, options_.out, data_.kept);
-      data_.mesh_contents.push_back(mesh_content(prepared.mesh, prepared));
-    }
-    write_provenance("running");  // now with the checksums
   }
 
   /// Removes files that the run of a changed study may not write again.
@@ -330,9 +378,8 @@ class StudyRun {
         trajectory_name(data_.mesh_contents[m], method, study_,
                         is_of_results_only(study_, prepared.description), threads);
     data_.trajectory_names[m].push_back(name);
-    // What failed is tried again: the reason may be gone.
     if (!options_.retime)
-      if (auto known = data_.kept.load_trajectory(name); known && known->failure.empty()) {
+      if (auto known = known_trajectory(name)) {
         ++n_kept_trajectories_;
         return *std::move(known);
       }
@@ -342,18 +389,43 @@ class StudyRun {
         prepared.mesh, method, study_, is_of_results_only(study_, prepared.description),
         problem_of(m, method), folders_of(log_name(prepared.description.name, method.name)),
         [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
-          const auto numbers = numbers_of<spacedim>(coordinates);
-          data_.kept.save_numbers(name, record, numbers);
-          contents[record] = content_of(numbers);
+          contents[record] = save_coordinates(prepared, name, record, coordinates);
         },
         watch);
     trajectory.session = started_;
     trajectory.content = content_of(trajectory, contents);
-    data_.kept.save(name, trajectory);
+    write([&] { data_.kept.save(name, trajectory); });
     if (!trajectory.failure.empty())
       progress_.say(prepared.description.name + ", " + method.title +
                     " failed: " + trajectory.failure + ".");
     return trajectory;
+  }
+
+  /// Returns a kept trajectory, unless its method has failed: the reason may be gone, so that is
+  /// tried again. In parts, the root decides.
+  std::optional<Trajectory> known_trajectory(const std::string& name) const {
+    std::optional<Trajectory> known;
+    bool is_known = false;
+    write([&] {
+      known = data_.kept.load_trajectory(name);
+      is_known = known && known->failure.empty();
+    });
+    if (study_.in_parts) {
+      options_.ranks.broadcast(is_known);
+      if (is_known && !known) known = data_.kept.load_trajectory(name);
+    }
+    return is_known ? known : std::nullopt;
+  }
+
+  /// Keeps the coordinates of a record. Returns a digest of them.
+  std::string save_coordinates(const PreparedMesh<dim, spacedim>& prepared, const std::string& name,
+                               std::size_t record,
+                               std::span<const Point<spacedim>> coordinates) const {
+    if constexpr (dim == spacedim)
+      if (prepared.parts) return prepared.parts->save(data_.kept, name, record, coordinates);
+    const auto numbers = numbers_of<spacedim>(coordinates);
+    data_.kept.save_numbers(name, record, numbers);
+    return content_of(numbers);
   }
 
   /// Reports how many results an earlier run has left.
@@ -385,7 +457,10 @@ class StudyRun {
     const std::vector<SolveTask*> open = open_tasks();
     announce(open.size());
     progress_.begin("Finite elements", data_.tasks.size());
-    run_tasks(open);
+    if (study_.in_parts)
+      run_tasks_in_parts(open);
+    else
+      run_tasks(open);
     progress_.end();
     report_gauss_points();
   }
@@ -454,6 +529,28 @@ class StudyRun {
       return solve_workers(data_, open, team_);
   }
 
+  /// Runs tasks on all ranks, one after the other, and writes the rows after each.
+  void run_tasks_in_parts(const std::vector<SolveTask*>& open) {
+    if constexpr (dim == spacedim) {
+      const auto work = solve_worker_in_parts<dim>(data_, open, options_.ranks);
+      std::size_t n_done = data_.tasks.size() - open.size();
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        stop_if_interrupted();
+        work(i);
+        costs_.forget(data_.kind_of(*open[i]));
+        costs_.add(data_.kind_of(*open[i]), open[i]->seconds);
+        ++n_done;
+        progress_.update(n_done, solved_text(n_done), seconds_left());
+        write([&] { write_iterations(); });
+        write_provenance("running");
+      }
+    }
+  }
+
+  std::string solved_text(std::size_t n_done) const {
+    return std::to_string(n_done) + " of " + std::to_string(data_.tasks.size()) + " solved";
+  }
+
   /// Waits for the queue, and writes the available rows every few seconds.
   void run_tasks(const std::vector<SolveTask*>& open) {
     using Clock = std::chrono::steady_clock;
@@ -473,9 +570,7 @@ class StudyRun {
         return true;
       });
       const std::size_t n_done = n_known + queue.n_done();
-      progress_.update(
-          n_done, std::to_string(n_done) + " of " + std::to_string(data_.tasks.size()) + " solved",
-          seconds_left());
+      progress_.update(n_done, solved_text(n_done), seconds_left());
       if (Clock::now() - last_write < between_writes) continue;
       write_iterations();
       write_provenance("running");
@@ -492,16 +587,24 @@ class StudyRun {
   /// Ends the process if the user has interrupted it. Tasks may run on other threads for a long
   /// time, so it does not wait for them. Finished work is kept.
   void stop_if_interrupted() {
-    if (options_.interrupted == nullptr || !*options_.interrupted) return;
+    bool is_asked = options_.interrupted != nullptr && *options_.interrupted;
+    if (study_.in_parts) is_asked = options_.ranks.any(is_asked);
+    if (!is_asked) return;
+    write([&] { report_interruption(); });  // ends the root, and mpirun then ends the other ranks
+    std::_Exit(130);
+  }
+
+  /// Writes the rows so far, and ends the process.
+  [[noreturn]] void report_interruption() {
     if (!writing_) {
       progress_.say("Interrupted before the first result.");
       std::_Exit(130);
     }
     const auto rows = write_iterations();
     try {
-      write_provenance("interrupted");
+      write_provenance_file("interrupted");
     } catch (const Interrupted&) {  // Python, which describes its methods, has got the signal, too
-      write_provenance("interrupted");
+      write_provenance_file("interrupted");
     }
     progress_.say("Interrupted: the " + std::to_string(rows) + " rows finished so far are in " +
                   (options_.out / "iterations.csv").string() +
@@ -528,29 +631,34 @@ class StudyRun {
 
   void write_results() {
     progress_.begin("Results", 0);
-    write_iterations();
-    write_atomically(options_.out / "summary.csv",
-                     summary_csv(study_.header.name, summary_rows(data_)));
+    const auto texts = tables();
+    write([&] {
+      write_iterations();
+      for (const auto& [name, text] : texts) write_atomically(options_.out / name, text);
+    });
+    if (study_.write_meshes) write_meshes(data_, options_.out);
+    progress_.end();
+    if (!study_.solvers.empty()) report_failed_solvers();
+  }
+
+  /// Returns the text of each table but iterations.csv, by file name. Collective in parts.
+  std::map<std::string, std::string> tables() {
+    const std::string& study = study_.header.name;
+    std::map<std::string, std::string> texts;
+    texts["summary.csv"] = summary_csv(study, summary_rows(data_));
     if (!study_.refined_degrees.empty())
-      write_atomically(options_.out / "refined.csv",
-                       refined_csv(study_.header.name, refined_rows(data_)));
+      texts["refined.csv"] = refined_csv(study, refined_rows(data_));
     if (!study_.further_solutions.empty())
-      write_atomically(options_.out / "solutions.csv",
-                       solutions_csv(study_.header.name, solution_rows(data_)));
+      texts["solutions.csv"] = solutions_csv(study, solution_rows(data_));
     if (!study_.metrics.empty())
-      write_atomically(
-          options_.out / "metrics.csv",
-          metrics_csv(study_.header.name, metric_rows(data_, [&] { stop_if_interrupted(); })));
+      texts["metrics.csv"] = metrics_csv(study, metric_rows(data_, [&] { stop_if_interrupted(); }));
     const auto thresholds =
         study_.thresholds.reference.empty()
             ? std::vector<ThresholdRow>()
             : reach_thresholds(rows_with_every_record(), study_.thresholds.reference,
                                study_.thresholds.margin);
-    write_atomically(options_.out / "thresholds.csv",
-                     thresholds_csv(study_.header.name, thresholds));
-    if (study_.write_meshes) write_meshes(data_, options_.out);
-    progress_.end();
-    report_failed_solvers();
+    texts["thresholds.csv"] = thresholds_csv(study, thresholds);
+    return texts;
   }
 
   /// Says on the error stream if solvers other than Poisson's have failed: their columns are then
@@ -588,7 +696,12 @@ class StudyRun {
     return facts;
   }
 
+  /// Collective in parts.
   void write_provenance(const std::string& status) {
+    write([&] { write_provenance_file(status); });
+  }
+
+  void write_provenance_file(const std::string& status) {
     const bool is_complete = status == "complete";
     write_atomically(
         options_.out / "provenance.json",
@@ -624,9 +737,23 @@ class StudyRun {
   PhaseTimes times_;
 };
 
+/// All ranks run the study. Each has its parts of the meshes, and the root writes.
+void run_study_in_parts(Study study, const StudyOptions& options) {
+  if (options.dry_run)
+    throw InputError("--dry-run reads whole meshes, which the study " + study.header.name +
+                     " avoids by 'set in parts = true'; leave one of them out");
+  if (!options.mesh_dir.empty()) study.meshes = without_published_repetitions(study.meshes);
+  note_files(study);
+  all_or_nothing(options.ranks, [&] {
+    with_dimension(study.dimensions.cells,
+                   [&]<int dim>() { StudyRun<dim, dim>(study, options).run(); });
+  });
+}
+
 }  // namespace
 
 void run_study(const Study& study, const StudyOptions& options) {
+  if (study.in_parts) return run_study_in_parts(study, options);
   if (study.dimensions.cells == 2 && options.ranks.size() > 1)
     throw InputError("the study " + study.header.name +
                      " has planar meshes, whose records are shared among threads, not processes: "

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <mutex>
+#include <optional>
 
 #include "fem/materials/cell_kinds.h"
 #include "meshes/refinement/split_cells.h"
@@ -246,7 +247,51 @@ class TeamWorker {
   OtherSolvers<3> others_;
 };
 
+/// The work of each rank on meshes in parts. It does not keep eigenvectors or nodal errors.
+template <int dim>
+class PartsWorker {
+ public:
+  PartsWorker(StudyData<dim>& data, const Ranks& ranks) : data_(data), ranks_(ranks) {}
+
+  void work(SolveTask& task) {
+    const SolveJob& job = task.job;
+    double seconds = 0.0;
+    SolutionRecord solution;
+    {
+      const ScopedTimer timer(seconds);
+      if (!solver_ || mesh_ != job.mesh) {
+        solver_.emplace(&data_.meshes[job.mesh].mesh, options_of(data_, job), ranks_);
+        mesh_ = job.mesh;
+      }
+      if (job_ != &job) solver_->set_eigenvectors({});
+      job_ = &job;
+      solution = solver_->solve(data_.coordinates_of(task), data_.solutions[job.mesh][job.solution],
+                                task.is_result);
+    }
+    finish_task(task, std::move(solution), seconds, {}, data_.kept);
+  }
+
+ private:
+  StudyData<dim>& data_;
+  const Ranks& ranks_;
+  std::optional<PoissonSolver<dim>> solver_;
+  std::size_t mesh_ = 0;  ///< of the solver
+  const SolveJob* job_ = nullptr;
+};
+
 }  // namespace
+
+template <int dim>
+SolveQueue::Worker solve_worker_in_parts(StudyData<dim>& data, const std::vector<SolveTask*>& tasks,
+                                         const Ranks& ranks) {
+  return [&tasks, worker = std::make_shared<PartsWorker<dim>>(data, ranks)](std::size_t task) {
+    worker->work(*tasks[task]);
+  };
+}
+template SolveQueue::Worker solve_worker_in_parts(StudyData<2>&, const std::vector<SolveTask*>&,
+                                                  const Ranks&);
+template SolveQueue::Worker solve_worker_in_parts(StudyData<3>&, const std::vector<SolveTask*>&,
+                                                  const Ranks&);
 
 template <int dim>
 ManufacturedSolution<dim> study_solution(const StudySolution& solution,
@@ -316,6 +361,7 @@ template std::unique_ptr<MeshSolver<3>> solver_on_mesh(const StudyData<3>&, std:
 bool needs_mpi(const Study& study) {
   for (const auto& solver : study.solvers)
     if (solver.traits.needs_mpi) return true;
+  if (study.in_parts) return true;
   return !study.degrees.empty() &&
          (study.dimensions.cells == 3 || study.finite_elements.multigrid_cg != Recorded::never);
 }

@@ -19,8 +19,8 @@ template <int dim>
 std::string u_text(const StudySolution& solution);
 std::string diffusivity_text(const StudySolution& solution);
 
-/// True if a study's solves need Trilinos and so MPI: on volume meshes, for multigrid, and for some
-/// solvers.
+/// True if a study needs MPI: meshes in parts, and solves with Trilinos, which are those on volume
+/// meshes, multigrid, and some solvers.
 bool needs_mpi(const Study& study);
 
 /// Returns the number of records that are solved at once. Trilinos runs on one thread at a time.
@@ -43,6 +43,11 @@ std::vector<SolveQueue::Worker> solve_workers(StudyData<2>& data,
 std::vector<SolveQueue::Worker> solve_workers(StudyData<3>& data,
                                               const std::vector<SolveTask*>& tasks,
                                               SolverTeam& team);
+
+/// Returns the worker of a rank for meshes in parts. Each task is collective.
+template <int dim>
+SolveQueue::Worker solve_worker_in_parts(StudyData<dim>& data, const std::vector<SolveTask*>& tasks,
+                                         const Ranks& ranks);
 
 /// Takes part in the solves of a volume study, on ranks other than the root, until the root's team
 /// ends.

@@ -2,11 +2,11 @@
 #include "studies/framework/run/solver_team.h"
 
 #include <chrono>
-#include <cstdio>
 #include <map>
 #include <thread>
 
 #include "smoothing/base/parallel.h"
+#include "studies/framework/run/all_or_nothing.h"
 
 namespace smoothfem {
 
@@ -51,25 +51,6 @@ void exchange(const Ranks& ranks, Command& command) {
   MPI_Request request;
   MPI_Ibcast(&command, sizeof(command), MPI_BYTE, 0, ranks.communicator(), &request);
   wait_without_spinning(request);
-}
-
-/// Runs the work that all ranks do alike. An InputError is the same on each rank and is thrown. Any
-/// other exception is on one rank only, and the others would wait forever, so it ends all ranks.
-template <class Work>
-auto all_or_nothing(const Ranks& ranks, const Work& work) {
-  try {
-    return work();
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    if (ranks.size() == 1) throw;
-    std::fprintf(
-        stderr,
-        "smoothfem: process %d of %d failed (%s); the study resumes if you start it again\n",
-        ranks.rank(), ranks.size(), error.what());
-    MPI_Abort(ranks.communicator(), 1);
-    throw;
-  }
 }
 
 /// The root's part of a solver that all ranks share. It sends the other ranks their commands.

@@ -116,10 +116,7 @@ Mesh<dim, spacedim> mesh_of(const StudyData<dim, spacedim>& data, std::size_t m,
                             std::size_t record) {
   const auto& mesh = data.meshes[m].mesh;
   if (record == 0) return mesh;
-  return {mesh.shared_topology(),
-          points_of<spacedim>(
-              data.kept.load_numbers(data.trajectory_names[m][k], record,
-                                     static_cast<std::size_t>(spacedim) * mesh.n_nodes())),
+  return {mesh.shared_topology(), data.load_coordinates(m, data.trajectory_names[m][k], record),
           mesh.shared_constraints()};
 }
 
@@ -260,11 +257,20 @@ class TaskMaker {
 }  // namespace
 
 template <int dim, int spacedim>
-std::vector<Point<spacedim>> StudyData<dim, spacedim>::coordinates_of(const SolveTask& task) const {
-  const auto& mesh = meshes[task.job.mesh].mesh;
-  if (task.job.trajectory.empty()) return mesh.copied_coordinates();
+std::vector<Point<spacedim>> StudyData<dim, spacedim>::load_coordinates(
+    std::size_t mesh, const std::string& trajectory, std::size_t record) const {
+  const auto& prepared = meshes[mesh];
+  if constexpr (dim == spacedim)
+    if (prepared.parts) return prepared.parts->load(kept, trajectory, record);
   return points_of<spacedim>(kept.load_numbers(
-      task.job.trajectory, task.record, static_cast<std::size_t>(spacedim) * mesh.n_nodes()));
+      trajectory, record, static_cast<std::size_t>(spacedim) * prepared.mesh.n_nodes()));
+}
+
+template <int dim, int spacedim>
+std::vector<Point<spacedim>> StudyData<dim, spacedim>::coordinates_of(const SolveTask& task) const {
+  const SolveJob& job = task.job;
+  if (job.trajectory.empty()) return meshes[job.mesh].mesh.copied_coordinates();
+  return load_coordinates(job.mesh, job.trajectory, task.record);
 }
 
 template <int dim, int spacedim>
@@ -277,7 +283,7 @@ SolveKind StudyData<dim, spacedim>::kind_of(const SolveTask& task) const {
           .degree = job.solve,
           .is_initial = job.method == 0,
           .is_result = task.is_result,
-          .n_nodes = times * static_cast<double>(meshes[job.mesh].mesh.n_nodes()),
+          .n_nodes = times * static_cast<double>(meshes[job.mesh].n_nodes),
           .dimension = dim,
           .polynomial_degree = std::max(1, solves[job.solve].degree),
           .record = task.record};
@@ -517,6 +523,16 @@ void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::p
   for (std::size_t m = 0; m < data.meshes.size(); ++m) {
     const PreparedMesh<dim, spacedim>& prepared = data.meshes[m];
     const std::string& name = prepared.description.name;
+    if constexpr (dim == spacedim)
+      if (prepared.parts) {
+        for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
+          const auto result = mesh_of(data, m, k, data.trajectories[m][k].result_record);
+          prepared.parts->write(
+              mesh_path(out, name, data.study.methods[k].name, prepared.parts->extension()),
+              result.coordinates());
+        }
+        continue;
+      }
     write_mesh(mesh_path(out, name, "initial", ".vtu"), prepared.mesh,
                fields_of(data, m, prepared.mesh, data.mesh_tasks[m].initial));
     for (std::size_t k = 0; k < data.study.methods.size(); ++k) {

@@ -89,6 +89,9 @@ struct StudyData {
   std::list<SolveTask> tasks{};  ///< by mesh, degree, job, record
   std::vector<MeshTasks> mesh_tasks{};
 
+  /// Returns the coordinates of a record of a kept trajectory; in parts, of this rank's nodes.
+  std::vector<Point<spacedim>> load_coordinates(std::size_t mesh, const std::string& trajectory,
+                                                std::size_t record) const;
   /// Returns the coordinates of a task's mesh, before its cells are split (if they are).
   std::vector<Point<spacedim>> coordinates_of(const SolveTask& task) const;
   SolveKind kind_of(const SolveTask& task) const;

@@ -2,8 +2,11 @@
 #include "studies/framework/run/study_meshes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
+#include "distributed/refine.h"
+#include "distributed/split.h"
 #include "meshes/distortion/distort.h"
 #include "meshes/doctor/examine_boundary.h"
 #include "meshes/domains/catalogue.h"
@@ -279,9 +282,112 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
   auto of_solvers = is_straight && mesh.topology().midside() != nullptr
                         ? mesh.topology().without_midside()
                         : mesh.shared_topology();
-  return {std::move(facts),     std::move(mesh),   std::move(ties),
-          std::move(kept_name), found.has_value(), std::move(of_solvers)};
+  return {std::move(facts),  std::move(mesh),      nullptr, std::move(ties), std::move(kept_name),
+          found.has_value(), std::move(of_solvers)};
 }
+
+namespace {
+
+/// Returns the number of pieces for a mesh that the study refines.
+std::size_t n_pieces_for(std::size_t n_cells, int dim, int n_refinements) {
+  constexpr double cells_a_piece = 250000.0;
+  const double n_refined = static_cast<double>(n_cells) * std::exp2(dim * n_refinements);
+  return static_cast<std::size_t>(std::ceil(n_refined / cells_a_piece));
+}
+
+/// Makes the pieces of a kept mesh. source: pieces to refine, or empty: the root makes the mesh.
+/// Collective.
+template <int dim>
+void make_pieces(const StudyMesh& description, const Study& study,
+                 const std::filesystem::path& mesh_dir, std::filesystem::path source,
+                 const std::string& name, const KeptResults& kept, const Ranks& ranks) {
+  std::vector<std::string> notes;
+  std::filesystem::path made;
+  const auto next = [&](int n_refinements) {
+    return kept.pieces_file(
+        n_refinements == study.refine ? name : name + "-" + std::to_string(n_refinements));
+  };
+  if (source.empty()) {
+    made = source = next(0);
+    ranks.on_root([&] {
+      const auto whole = prepare_mesh<dim>(description, study, mesh_dir, nullptr);
+      notes = whole.changes;
+      std::filesystem::create_directories(made.parent_path());
+      write_in_pieces(whole.mesh, n_pieces_for(whole.n_cells, dim, study.refine), made);
+    });
+  }
+  for (int n = 1; n <= study.refine; ++n) {
+    const RefinedPieces refined = refine_pieces(ranks, source, next(n));
+    ranks.on_root([&] {
+      if (n == 1) notes.insert(notes.end(), refined.losses.begin(), refined.losses.end());
+      if (made.empty()) return;
+      std::filesystem::remove(made);
+      std::filesystem::remove_all(made.replace_extension());
+    });
+    made = source = next(n);
+  }
+  ranks.on_root([&] { kept.save_notes(name, notes); });
+}
+
+}  // namespace
+
+template <int dim>
+PreparedMesh<dim> prepare_mesh_in_parts(const StudyMesh& description, const Study& study,
+                                        const std::filesystem::path& mesh_dir,
+                                        const KeptResults& kept, const Ranks& ranks) {
+  const Source source = source_of(description, mesh_dir);
+  const bool is_list = Pieces::is_list(source.file);
+  const bool is_made = source.file.empty() || is_untangled(description, source) ||
+                       (is_distorted(description) && !source.published) ||
+                       (study.refine > 0 && !is_list);
+  std::filesystem::path file = source.file;
+  std::string kept_name, source_sha256;
+  std::vector<std::string> changes;
+  if (!file.empty()) source_sha256 = content_of_pieces(ranks, Pieces(ranks, file));
+  if (is_made || study.refine > 0) {
+    kept_name = kept_mesh_name(description, source_sha256, study.edge_scale) +
+                (study.refine > 0 ? "-refined-" + std::to_string(study.refine) : "");
+    file = kept.pieces_file(kept_name);
+    bool is_kept = ranks.is_root() && kept.load_notes(kept_name).has_value();
+    ranks.broadcast(is_kept);
+    if (!is_kept)
+      make_pieces<dim>(description, study, mesh_dir, is_made ? "" : source.file, kept_name, kept,
+                       ranks);
+    changes = kept.load_notes(kept_name).value();
+  }
+  auto parts = std::make_shared<MeshInParts<dim>>(ranks, file);
+  changes.insert(changes.end(), parts->notes().begin(), parts->notes().end());
+  if (!is_made && !study.degrees.empty())
+    changes.push_back("hanging nodes are not looked for in a mesh in parts");
+  const std::string refined =
+      study.refine == 0 ? "" : ", every cell split " + std::to_string(study.refine) + " times";
+  MeshFacts facts{.description = description,
+                  .n_nodes = parts->n_nodes(),
+                  .n_cells = parts->n_cells(),
+                  .quality = mesh_quality(parts->part()),
+                  .origin = source.origin() + refined,
+                  .setting = source.setting() + refined,
+                  .file = "meshes/" + description.name + "_initial" + parts->extension(),
+                  .published = source.published,
+                  .changes = std::move(changes),
+                  .source_sha256 = source_sha256,
+                  .sha256 = {}};
+  if (facts.quality.n_invalid > 0)
+    throw InputError(facts.origin + ": " + std::to_string(facts.quality.n_invalid) + " of " +
+                     std::to_string(facts.n_cells) +
+                     " cells are invalid; smooth a valid mesh, 'smoothfem quality' counts them");
+  Mesh<dim> part = parts->part();
+  auto topology = part.shared_topology();
+  return {
+      std::move(facts),   std::move(part), std::move(parts), nullptr, std::move(kept_name), true,
+      std::move(topology)};
+}
+template PreparedMesh<2> prepare_mesh_in_parts(const StudyMesh&, const Study&,
+                                               const std::filesystem::path&, const KeptResults&,
+                                               const Ranks&);
+template PreparedMesh<3> prepare_mesh_in_parts(const StudyMesh&, const Study&,
+                                               const std::filesystem::path&, const KeptResults&,
+                                               const Ranks&);
 
 void require_unchanged_meshes(const EarlierRun& run, const std::filesystem::path& out) {
   for (const auto& [file, noted] : run.meshes)
@@ -296,6 +402,12 @@ template <int dim, int spacedim>
 void write_initial_mesh(PreparedMesh<dim, spacedim>& prepared, const std::filesystem::path& out,
                         const KeptResults& kept) {
   const std::filesystem::path path = out / prepared.file;
+  if constexpr (dim == spacedim)
+    if (prepared.parts) {
+      prepared.parts->write(path, prepared.mesh.coordinates());
+      prepared.sha256 = sha256_of_file(path);  // of the list, if the mesh is in pieces
+      return;
+    }
   write_mesh(path, prepared.mesh);
   prepared.sha256 = sha256_of_file(path);
   if (!prepared.kept_name.empty() && !prepared.is_kept) kept.save_mesh(prepared.kept_name, path);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "smoothing/parts/mesh_part.h"
 #include "studies/framework/run/peak_memory.h"
 
 namespace smoothfem {
@@ -42,6 +43,18 @@ class RecordTimes {
  private:
   std::vector<double> smoothing_, preparation_, solves_;
 };
+
+/// Replaces times and memory by the largest of all ranks that have a part of the mesh.
+void keep_largest(const MeshPart& part, Trajectory& trajectory) {
+  std::vector<double*> numbers{&trajectory.smoothing_seconds, &trajectory.preparation_seconds,
+                               &trajectory.peak_memory_gib};
+  for (IterationRecord& record : trajectory.records)
+    numbers.insert(numbers.end(), {&record.smoothing_seconds, &record.preparation_seconds});
+  std::vector<double> values;
+  for (const double* number : numbers) values.push_back(*number);
+  part.max(values);
+  for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] = values[i];
+}
 
 /// The intervals after which records are due: 1, 2, ..., n_before_growth, then rarer and rarer.
 class DueIntervals {
@@ -96,9 +109,8 @@ class Schedule {
 template <int dim, int spacedim>
 MeshWarpage warpage_of(const Mesh<dim, spacedim>& mesh) {
   if constexpr (dim == 3)
-    return mesh_warpage(mesh);
-  else
-    return {};
+    if (mesh.topology().part() == nullptr) return mesh_warpage(mesh);
+  return {};
 }
 template MeshWarpage warpage_of(const Mesh<2>&);
 template MeshWarpage warpage_of(const Mesh<3>&);
@@ -204,6 +216,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   totals.set_medians(trajectory);
   for (std::size_t r = 0; r < trajectory.records.size(); ++r)
     times[r].set_medians(trajectory.records[r]);
+  if (const MeshPart* part = mesh.topology().part()) keep_largest(*part, trajectory);
   return trajectory;
 }
 

@@ -34,7 +34,8 @@ struct Trajectory {
   std::string content{};
 };
 
-/// Returns the warpage of a volume mesh's quadrilateral faces; empty for other meshes.
+/// Returns the warpage of a volume mesh's quadrilateral faces; empty for other meshes, and in
+/// parts.
 template <int dim, int spacedim>
 MeshWarpage warpage_of(const Mesh<dim, spacedim>& mesh);
 
@@ -47,7 +48,8 @@ using KeepSnapshot =
 using WatchIteration = std::function<void(const IterationRecord&)>;
 
 /// Runs a method timing_runs times on copies of the mesh, and keeps the median times of each
-/// record. The meshes are the same every time.
+/// record. The meshes are the same every time. In parts, each rank gets the times and the memory of
+/// the rank that needs most.
 /// Snapshots are every k-th record of each stage, the result and the last record, as the study
 /// says. only_results: only the result and the last record.
 /// keep: gets the snapshots' meshes in any order, and possibly others. If the study needs no

@@ -12,7 +12,7 @@ ReadyStudy read_smoothing_study(const std::filesystem::path& file, const std::st
   const bool solves_in_space = study.dimensions.cells == 3 && !study.degrees.empty();
   return {.header = study.header,
           .needs_mpi = needs_mpi(study),
-          .benefits_from_mpi = solves_in_space,
+          .benefits_from_mpi = solves_in_space || study.in_parts,
           .run = [study](const StudyOptions& options) { run_study(study, options); }};
 }
 

@@ -105,6 +105,7 @@ std::vector<double> KeptResults::load_numbers(const std::string& name, std::size
 }
 
 void KeptResults::save(const std::string& name, const Trajectory& trajectory) const {
+  if (!is_writer_) return;
   if (std::filesystem::exists(folder_)) flush_file_system(folder_);  // the saved numbers
   save_as_cbor(folder_, name + ".trajectory", trajectory);
 }
@@ -116,6 +117,7 @@ std::optional<Trajectory> KeptResults::load_trajectory(const std::string& name) 
 }
 
 void KeptResults::save(const std::string& name, const SolvedRecords& solved) const {
+  if (!is_writer_) return;
   save_as_cbor(folder_, name + ".solved", solved);
 }
 
@@ -136,6 +138,14 @@ std::optional<fs::path> KeptResults::find_mesh(const std::string& name) const {
     if (sum && fs::exists(file) && sha256_of_file(file) == *sum) return file;
   }
   return std::nullopt;
+}
+
+void KeptResults::save_notes(const std::string& name, const std::vector<std::string>& notes) const {
+  if (is_writer_) save_as_cbor(folder_, name + ".notes", notes);
+}
+
+std::optional<std::vector<std::string>> KeptResults::load_notes(const std::string& name) const {
+  return load_cbor<std::vector<std::string>>(folder_, name + ".notes");
 }
 
 bool KeptResults::has_solved(const std::string& name) const {

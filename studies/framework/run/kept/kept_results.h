@@ -29,7 +29,10 @@ struct SolvedRecords {
 /// InputError.
 class KeptResults {
  public:
-  explicit KeptResults(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// is_writer: false for a process that leaves it to another to save what both have. Only
+  /// save_numbers() then writes.
+  explicit KeptResults(std::filesystem::path folder, bool is_writer = true)
+      : folder_(std::move(folder)), is_writer_(is_writer) {}
 
   /// Saves one array of numbers per record: coordinates of a trajectory or nodal errors of solved
   /// records.
@@ -51,6 +54,14 @@ class KeptResults {
   /// Returns the path of that copy, or nothing if there is none or it has been changed.
   std::optional<std::filesystem::path> find_mesh(const std::string& name) const;
 
+  /// Returns where the pieces of a mesh in parts are kept. They are complete if load_notes() finds
+  /// the mesh's notes, which are saved last.
+  std::filesystem::path pieces_file(const std::string& name) const {
+    return folder_ / (name + ".pvtu");
+  }
+  void save_notes(const std::string& name, const std::vector<std::string>& notes) const;
+  std::optional<std::vector<std::string>> load_notes(const std::string& name) const;
+
   /// True if there are solved records of this name.
   bool has_solved(const std::string& name) const;
 
@@ -62,6 +73,7 @@ class KeptResults {
   static std::string numbers_name(const std::string& name, std::size_t record);
 
   std::filesystem::path folder_;
+  bool is_writer_;
 };
 
 /// Converts points to numbers, one coordinate after the other, and back.

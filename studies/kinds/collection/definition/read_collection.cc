@@ -25,6 +25,10 @@ Study read_common(const StudyText& text, const std::string& scale, int dimension
                      std::to_string(dimension) + "\nset meshes = member\n" +
                      (has_own_solutions ? "subsection solution\nset name = sine\nend\n" : "")),
       scale);
+  if (study.in_parts)
+    throw InputError(text.file().string() +
+                     ": the meshes of a collection are whole; leave out 'set in parts = true', or "
+                     "write a study of one mesh in parts");
   study.meshes.clear();
   for (auto* parameters : {&study.header.parameters, &study.header.file_parameters})
     std::erase_if(*parameters, [&](const auto& entry) {
