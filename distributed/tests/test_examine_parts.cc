@@ -6,8 +6,8 @@
 #include <random>
 
 #include "distributed/examine_parts.h"
-#include "distributed/pieces.h"
-#include "distributed/split.h"
+#include "distributed/files/pieces.h"
+#include "distributed/files/split.h"
 #include "distributed/tests/folder.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/tests/faulty_meshes.h"

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "distributed/examine_parts.h"
+#include "distributed/files/pieces.h"
 #include "distributed/partition.h"
-#include "distributed/pieces.h"
 #include "distributed/tests/folder.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/io/gmsh/msh_parts.h"

@@ -9,11 +9,11 @@
 #include <fstream>
 #include <iostream>
 
-#include "distributed/box.h"
 #include "distributed/distributed_mesh.h"
+#include "distributed/files/box.h"
+#include "distributed/files/pieces.h"
+#include "distributed/files/split.h"
 #include "distributed/partition.h"
-#include "distributed/pieces.h"
-#include "distributed/split.h"
 #include "distributed/tests/folder.h"
 #include "distributed/tests/scattered.h"
 #include "fem/tests/all_ranks.h"

@@ -9,10 +9,10 @@
 #include <map>
 #include <set>
 
-#include "distributed/box.h"
-#include "distributed/pieces.h"
-#include "distributed/refine.h"
-#include "distributed/split.h"
+#include "distributed/files/box.h"
+#include "distributed/files/pieces.h"
+#include "distributed/files/refine.h"
+#include "distributed/files/split.h"
 #include "distributed/tests/folder.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/io/mesh_file.h"

@@ -39,9 +39,9 @@ void generate_box(const BoxArguments& arguments);
 /// Examines a mesh in parts (distributed/examine_parts.h). False for all processes but one, which
 /// has the result.
 bool examine_pieces(const std::string& mesh, Examination& seen);
-/// Writes a whole mesh in pieces (distributed/split.h).
+/// Writes a whole mesh in pieces (distributed/files/split.h).
 void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& out);
-/// Splits the cells of a mesh in pieces (distributed/refine.h).
+/// Splits the cells of a mesh in pieces (distributed/files/refine.h).
 void refine_pieces(const std::string& in, const std::string& out, bool quiet);
 
 }  // namespace smoothfem

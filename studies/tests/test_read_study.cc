@@ -273,9 +273,9 @@ TEST_F(StudyFile, BadValuesAreFoundWithTheirLine) {
 TEST_F(StudyFile, MessagesShowTheCorrectForm) {
   expect_error_at(5, one_mesh + "set degree = 1\n",
                   "there is no key 'degree' here; did you mean 'degrees'?");
-  expect_error_at(7,
-                  one_mesh + "set scales = quick\nsubsection scale quick\n set metrics = all\nend\n",
-                  "there is no key 'metrics' here; it is for another part of the file;");
+  expect_error_at(
+      7, one_mesh + "set scales = quick\nsubsection scale quick\n set metrics = all\nend\n",
+      "there is no key 'metrics' here; it is for another part of the file;");
   expect_error_at(5, one_mesh + "subsection solutions\nend\n", "did you mean 'solution'?");
   expect_error_at(5, one_mesh + "subsection mesh gear-of-mine\nend\n",
                   "'set meshes' does not name 'gear-of-mine', which has a subsection here; add it");

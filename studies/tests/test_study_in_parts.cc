@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "distributed/box.h"
-#include "distributed/pieces.h"
+#include "distributed/files/box.h"
+#include "distributed/files/pieces.h"
 #include "distributed/tests/folder.h"
 #include "studies/framework/run/run_study.h"
 #include "studies/tests/study_tests.h"
@@ -146,6 +146,18 @@ TEST(StudyInParts, RefusesFilesThatDoNotFit) {
   all_ranks().on_root([&] { fs::remove(piece_file(folder / "box3.pvtu", 1)); });
   EXPECT_THAT([&] { run_study(study, options_for(folder / "no", all_ranks())); },
               ThrowsMessage<InputError>(HasSubstr("box3_0001.vtu")));
+  all_ranks().on_root([&] {  // a square next to two smaller ones
+    std::ofstream(folder / "hanging.mesh")
+        << "MeshVersionFormatted 2\nDimension 2\nVertices\n8\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+           "1.5 0 0\n1 0.5 0\n1.5 0.5 0\n1.5 1 0\nQuadrilaterals\n3\n1 2 3 4 0\n2 5 7 6 0\n"
+           "6 7 8 3 0\nEnd\n";
+  });
+  const Study hanging = study_of(folder, "hanging",
+                                 "set meshes = grid\nset methods = smooth\n"
+                                 "subsection method smooth\n set type = getme-adaptive\nend\n"
+                                 "subsection mesh grid\n set file = hanging.mesh\nend\n");
+  EXPECT_THAT([&] { run_study(hanging, options_for(folder / "no", all_ranks())); },
+              ThrowsMessage<InputError>(HasSubstr("hanging")));
   if (!all_ranks().is_root()) return;
   EXPECT_FALSE(fs::exists(folder / "no"));
 }

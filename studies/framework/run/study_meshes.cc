@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "distributed/refine.h"
-#include "distributed/split.h"
+#include "distributed/files/refine.h"
+#include "distributed/files/split.h"
 #include "meshes/distortion/distort.h"
 #include "meshes/doctor/examine_boundary.h"
 #include "meshes/domains/catalogue.h"
@@ -358,7 +358,8 @@ PreparedMesh<dim> prepare_mesh_in_parts(const StudyMesh& description, const Stud
   auto parts = std::make_shared<MeshInParts<dim>>(ranks, file);
   changes.insert(changes.end(), parts->notes().begin(), parts->notes().end());
   if (!is_made && !study.degrees.empty())
-    changes.push_back("hanging nodes are not looked for in a mesh in parts");
+    for (const auto& not_looked_for : require_conforming_parts(ranks, source.file))
+      changes.push_back(not_looked_for);
   const std::string refined =
       study.refine == 0 ? "" : ", every cell split " + std::to_string(study.refine) + " times";
   MeshFacts facts{.description = description,

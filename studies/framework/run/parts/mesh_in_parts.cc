@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/parts/mesh_in_parts.h"
 
+#include "distributed/examine_parts.h"
 #include "distributed/partition.h"
 #include "studies/framework/results/sha256.h"
 #include "studies/framework/run/kept/result_names.h"
@@ -120,6 +121,21 @@ void MeshInParts<dim>::write(const std::filesystem::path& path,
                              std::span<const Point<dim>> coordinates) {
   store(coordinates);
   pieces_.write<dim>(path, mesh_.directory);
+}
+
+std::vector<std::string> require_conforming_parts(const Ranks& ranks,
+                                                  const std::filesystem::path& file) {
+  auto scattered = Pieces(ranks, file).read(ReadFor::examination);
+  const Examination seen =
+      std::visit([&](auto& mesh) { return examine_parts(ranks, std::move(mesh)); }, scattered);
+  ranks.on_root([&] {
+    for (const Finding& finding : seen.findings)
+      if (finding.kind == FindingKind::hanging_nodes ||
+          finding.kind == FindingKind::coincident_nodes)
+        throw InputError(file.string() + ": " + finding.sentence +
+                         "; a study in parts needs a mesh that conforms");
+  });
+  return seen.not_looked_for;
 }
 
 template class MeshInParts<2>;

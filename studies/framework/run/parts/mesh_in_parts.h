@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "distributed/pieces.h"
+#include "distributed/files/pieces.h"
 #include "studies/framework/run/kept/kept_results.h"
 
 namespace smoothfem {
@@ -63,5 +63,10 @@ class MeshInParts {
 
 /// Returns a digest of all files of a mesh, which the ranks share. Collective.
 std::string content_of_pieces(const Ranks& ranks, const Pieces& pieces);
+
+/// Throws InputError if the sides of cells do not fit, by hanging or coincident nodes. Returns
+/// sentences about what was not looked for, on all ranks. Collective.
+std::vector<std::string> require_conforming_parts(const Ranks& ranks,
+                                                  const std::filesystem::path& file);
 
 }  // namespace smoothfem

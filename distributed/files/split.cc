@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "distributed/split.h"
+#include "distributed/files/split.h"
 
 #include <algorithm>
 
+#include "distributed/files/pieces.h"
 #include "distributed/partition.h"
-#include "distributed/pieces.h"
 #include "meshes/io/all_elements.h"
 #include "meshes/io/mesh_file.h"
 

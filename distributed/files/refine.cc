@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "distributed/refine.h"
+#include "distributed/files/refine.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "distributed/pieces.h"
+#include "distributed/files/pieces.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/vtk/vtk_files.h"
 #include "meshes/refinement/split_cells.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "distributed/box.h"
+#include "distributed/files/box.h"
 
 #include <algorithm>
 
-#include "distributed/pieces.h"
+#include "distributed/files/pieces.h"
 #include "meshes/distortion/counter_random.h"
 #include "meshes/io/mesh_file.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "distributed/pieces.h"
+#include "distributed/files/pieces.h"
 
 #include <functional>
 #include <limits>

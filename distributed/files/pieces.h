@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "distributed/distributed_mesh.h"
-#include "distributed/file_blocks.h"
+#include "distributed/files/file_blocks.h"
 
 namespace smoothfem {
 

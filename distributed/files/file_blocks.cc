@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "distributed/file_blocks.h"
+#include "distributed/files/file_blocks.h"
 
 #include <algorithm>
 #include <limits>
