@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "distributed/files/box.h"
 #include "distributed/examine_parts.h"
-#include "distributed/partition.h"
+#include "distributed/files/box.h"
 #include "distributed/files/pieces.h"
 #include "distributed/files/refine.h"
 #include "distributed/files/split.h"
+#include "distributed/partition.h"
 #include "fem/poisson_solver.h"
 #include "fem/ranks/mpi_session.h"
 #include "meshes/io/atomic_file.h"
