@@ -128,7 +128,8 @@ std::vector<std::string> require_conforming_parts(const Ranks& ranks,
   auto scattered = Pieces(ranks, file).read(ReadFor::examination);
   const Examination seen =
       std::visit([&](auto& mesh) { return examine_parts(ranks, std::move(mesh)); }, scattered);
-  ranks.on_root([&] {
+  ranks.together([&] {
+    if (!ranks.is_root()) return;
     for (const Finding& finding : seen.findings)
       if (finding.kind == FindingKind::hanging_nodes ||
           finding.kind == FindingKind::coincident_nodes)
