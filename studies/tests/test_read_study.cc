@@ -312,6 +312,7 @@ TEST_F(StudyFile, MeshesInPartsRefuseWhatNeedsTheWhole) {
   EXPECT_TRUE(huge.in_parts);
   EXPECT_EQ(huge.refine, 1);
   EXPECT_EQ(huge.degrees, std::vector{1});
+  EXPECT_EQ(huge.finite_elements.condition_number, ConditionNumberMethod::none);
   EXPECT_FALSE(read_study(find_study("volume")).in_parts);
 }
 

@@ -280,7 +280,8 @@ StudyParameters said_parameters(ParameterHandler& p) {
            entry == std::pair<std::string, std::string>{"in parts", "false"} ||
            (is_key("refine", entry.first) && entry.second == "0") ||
            (entry.first.starts_with("scale ") && entry.second.empty() &&
-            (is_key("in parts", entry.first) || is_key("degrees", entry.first))) ||
+            (is_key("in parts", entry.first) || is_key("degrees", entry.first) ||
+             is_key("condition number", entry.first))) ||
            (entry.first.ends_with("/interfaces") && entry.second == "fixed") ||
            (entry.first.ends_with("/target") && entry.second == "regular") ||
            (entry.second.empty() &&

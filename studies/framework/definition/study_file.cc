@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "smoothing/base/find_named.h"
@@ -191,6 +192,15 @@ void declare_scales(ParameterHandler& p) {
                   "'scale NAME'.");
 }
 
+namespace {
+
+/// Returns the key of a path "SUBSECTION/KEY" or "KEY".
+std::string last_name(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+}  // namespace
+
 void apply_scale(ParameterHandler& p, const std::string& scale, const std::string& file,
                  const std::vector<std::string>& numbers, const std::vector<std::string>& lists) {
   if (scale.empty()) return;
@@ -199,13 +209,17 @@ void apply_scale(ParameterHandler& p, const std::string& scale, const std::strin
     const Subsection subsection(p, "scale " + scale);
     for (const auto& key : numbers)
       if (std::stod(p.get(key)) != 0.0) changes.emplace_back(key, p.get(key));
-    for (const auto& key : lists)
-      if (!p.get(key).empty()) changes.emplace_back(key, p.get(key));
+    for (const auto& path : lists)
+      if (const std::string value = p.get(last_name(path)); !value.empty())
+        changes.emplace_back(path, value);
   }
-  for (const auto& [key, value] : changes) try {
+  for (const auto& [path, value] : changes) try {
+      const std::string key = last_name(path);
+      std::optional<Subsection> subsection;
+      if (key != path) subsection.emplace(p, path.substr(0, path.size() - key.size() - 1));
       p.set(key, value);
     } catch (const dealii::ExceptionBase&) {
-      throw InputError(file + ": the scale " + scale + " has '" + key + " = " + value +
+      throw InputError(file + ": the scale " + scale + " has '" + last_name(path) + " = " + value +
                        "', which is out of range; 'smoothfem list --study-keys' shows the range");
     }
 }

@@ -94,7 +94,8 @@ StudyParameters all_parameters(dealii::ParameterHandler& p);
 void declare_scales(dealii::ParameterHandler& p);
 
 /// Sets keys to the scale's values, if the scale is not empty: numbers that are not 0, and lists
-/// that are not empty. Throws InputError for values that these keys cannot have.
+/// that are not empty. A list may be the key of a subsection: "SUBSECTION/KEY". Throws InputError
+/// for values that these keys cannot have.
 void apply_scale(dealii::ParameterHandler& p, const std::string& scale, const std::string& file,
                  const std::vector<std::string>& numbers,
                  const std::vector<std::string>& lists = {});

@@ -438,7 +438,7 @@ void declare_scale(ParameterHandler& p, const std::string& name) {
                   "Replaces the value above; 0: no change.");
   p.declare_entry("meshes", "", Patterns::Anything(),
                   "Meshes to take from the list above; empty: all.");
-  for (const std::string key : {"seeds", "degrees", "in parts"})
+  for (const std::string key : {"seeds", "degrees", "in parts", "condition number"})
     p.declare_entry(key, "", Patterns::Anything(), "Replaces the value above; empty: no change.");
   p.declare_entry("refine", "0", Patterns::Integer(0), "Replaces the value above; 0: no change.");
 }

@@ -52,7 +52,11 @@ inline const std::string formula_of_solutions = "u as a formula, as in the subse
 /// Numbers that a scale may change, for apply_scale.
 inline const std::vector<std::string> scaled_numbers{"record every", "edge scale", "timing runs",
                                                      "refine"};
-inline const std::vector<std::string> scaled_lists{"record stages every", "meshes", "seeds",
-                                                   "degrees", "in parts"};
+inline const std::vector<std::string> scaled_lists{"record stages every",
+                                                   "meshes",
+                                                   "seeds",
+                                                   "degrees",
+                                                   "in parts",
+                                                   "finite elements/condition number"};
 
 }  // namespace smoothfem
