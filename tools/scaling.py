@@ -60,6 +60,12 @@ cells, one process gives a = {a:.2f} ns, and two give b = {b:.1f} ns. The others
 | processes | predicted, ns a cell | measured, ns a cell | measured / predicted |
 |--:|--:|--:|--:|
 """
+NO_MODEL = """
+## Model
+
+Two processes took less than half the time of one, so that copied nodes seem to cost less than nothing. Something else ran on this machine, or it
+changed its speed. Run it again on a quiet machine.
+"""
 LARGE = """
 So 10^9 cells on 10^4 processes, each with a core of its own, would take {total:.2f} ms an iteration: {compute:.2f} ms for {cells:,.0f} cells a process,
 and {exchange:.2f} ms for {copies:,.0f} copied nodes (those of {processes} processes above, in proportion to the surface). The model knows no
@@ -173,6 +179,9 @@ def model(runs, processes, found):
     cells = middle((1, 1), "cells")
     a = seconds((1, 1)) / cells
     b = (cores((2, 1)) * seconds((2, 1)) - a * cells) / (2 * middle((2, 1), "copies"))
+    if b < 0:
+        yield NO_MODEL
+        return
     yield MODEL.format(cells=cells, a=1e9 * a, b=1e9 * b)
     for case in runs:
         if case[0] > 2:

@@ -406,7 +406,8 @@ void write_initial_mesh(PreparedMesh<dim, spacedim>& prepared, const std::filesy
   if constexpr (dim == spacedim)
     if (prepared.parts) {
       prepared.parts->write(path, prepared.mesh.coordinates());
-      prepared.sha256 = sha256_of_file(path);  // of the list, if the mesh is in pieces
+      // Of the list, if the mesh is in pieces; files of Gmsh's parts have no list.
+      if (std::filesystem::exists(path)) prepared.sha256 = sha256_of_file(path);
       return;
     }
   write_mesh(path, prepared.mesh);

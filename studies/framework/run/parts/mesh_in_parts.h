@@ -19,6 +19,7 @@ class MeshInParts {
   /// Reads a mesh (pieces.h).
   MeshInParts(const Ranks& ranks, const std::filesystem::path& file);
 
+  /// The part as it was read, until save() or write().
   const Mesh<dim>& part() const { return mesh_.part; }
   std::size_t n_nodes() const { return mesh_.n_nodes; }  ///< of the whole mesh
   std::size_t n_cells() const { return mesh_.part.topology().part()->n_cells_of_whole(); }
