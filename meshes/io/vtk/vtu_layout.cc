@@ -137,6 +137,9 @@ class VtuScan {
       tag_.name = tag_.text.substr(2, tag_.text.find_first_of(" \t\r\n>") - 2);
       if (open_.empty() || open_.back() != tag_.name) refuse(damaged);
       open_.pop_back();
+      if (tag_.name == "InformationKey" && range_at_ != 0)
+        layout_.edits.push_back({range_at_, at_ - range_at_, ""});
+      if (tag_.name == "InformationKey") range_at_ = 0;
       return;
     }
     XmlTags tags(path_.string(), tag_.text);
@@ -170,6 +173,8 @@ class VtuScan {
       refuse("its cells have an array with the role GlobalIds");
     else if (tag_.name == "AppendedData")
       return visit_appended();
+    else if (tag_.name == "InformationKey")
+      visit_key();
     if (tag_.name == "DataArray" || tag_.name == "Array") visit_array();
     if (!tag_.ends) open_.push_back(tag_.name);
   }
@@ -191,6 +196,13 @@ class VtuScan {
     ++n_pieces_;
     layout_.arrays.n_points = number(tag_, "NumberOfPoints", 0);
     layout_.arrays.n_cells = number(tag_, "NumberOfCells", 0);
+  }
+
+  /// Ranges of the points are left out of copies.
+  void visit_key() {
+    if (open_.size() >= 2 && open_[open_.size() - 2] == "Points" && !tag_.ends &&
+        tag_.attribute("name").value_or("").ends_with("_RANGE"))
+      range_at_ = tag_.at;
   }
 
   /// Goes past the data of inline arrays, in which tags need not be looked for.
@@ -362,6 +374,7 @@ class VtuScan {
   std::string window_;
   FileTag tag_;
   std::vector<std::string> open_;
+  std::uint64_t range_at_ = 0;  ///< of an open element with a range of the points
   bool is_complete_ = false, appended_is_base64_ = false;
   std::uint64_t appended_at_ = 0, appended_end_ = 0, n_decompressed_ = 0;
   std::size_t n_pieces_ = 0;
