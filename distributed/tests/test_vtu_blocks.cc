@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run by mpirun, as test_parts.cc. A comment in a file makes the first rank read it alone.
+// Run by mpirun, as test_parts.cc. A declaration in a file makes the first rank read it alone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vtkCellArray.h>
@@ -99,8 +99,11 @@ void change(const fs::path& from, const fs::path& to, const Change& by) {
   });
 }
 
+void declare(std::string& bytes) {
+  bytes.insert(bytes.find("<VTKFile"), "<!DOCTYPE VTKFile>");
+}
 void add_comment(std::string& bytes) {
-  bytes.insert(bytes.find("<VTKFile"), "<!-- -->");
+  bytes.insert(bytes.find("<Piece"), "<!-- a > b, written by \"VTK -->");
 }
 
 std::vector<std::size_t> of_all(const std::optional<NodeDirectory<std::size_t>>& directory) {
@@ -142,7 +145,7 @@ void expect_equal_arrays(Arrays& found, Arrays& expected) {
 /// Moves the nodes of a file; compares the result with that of the first rank, and, as VTK reads
 /// it, with the file.
 template <int dim>
-void expect_same_copy(const fs::path& path, const fs::path& commented) {
+void expect_same_copy(const fs::path& path, const fs::path& declared) {
   const fs::path out = path.parent_path() / "out.vtu", other = path.parent_path() / "other.vtu";
   const auto write = [&](const fs::path& from, const fs::path& to) {
     const Pieces pieces(all_ranks(), from);
@@ -152,7 +155,7 @@ void expect_same_copy(const fs::path& path, const fs::path& commented) {
     pieces.template write<dim>(to, mesh.nodes);
   };
   write(path, out);
-  write(commented, other);
+  write(declared, other);
   all_ranks().on_root([&] {
     const auto points = [](const fs::path& file) {
       return std::get<Mesh<dim>>(read_mesh(file, {.turns_over = false}).mesh).copied_coordinates();
@@ -183,17 +186,18 @@ void expect_same_copy(const fs::path& path, const fs::path& commented) {
 template <int dim>
 void expect_same_as_alone(const Mesh<dim>& mesh) {
   const Folder folder;
-  const fs::path path = folder / "mesh.vtu", commented = folder / "commented.vtu";
+  const fs::path path = folder / "mesh.vtu", declared = folder / "declared.vtu";
   all_ranks().on_root([&] { write_mesh(folder / "own.vtu", mesh); });
   for (const Encoding& encoding : encodings) {
     all_ranks().on_root([&] { encode(folder / "own.vtu", encoding, path); });
-    change(path, commented, add_comment);
+    change(path, declared, declare);
+    change(path, path, add_comment);
     EXPECT_EQ(file_blocks(all_ranks(), path)->obstacle(), "") << encoding.name;
-    EXPECT_EQ(file_blocks(all_ranks(), commented)->obstacle(), "it has comments");
+    EXPECT_EQ(file_blocks(all_ranks(), declared)->obstacle(), "it declares a type of documents");
     for (const ReadFor purpose : {ReadFor::smoothing, ReadFor::examination}) {
       const auto found = std::get<ScatteredMesh<dim>>(Pieces(all_ranks(), path).read(purpose)),
                  expected =
-                     std::get<ScatteredMesh<dim>>(Pieces(all_ranks(), commented).read(purpose));
+                     std::get<ScatteredMesh<dim>>(Pieces(all_ranks(), declared).read(purpose));
       expect_equal(found, expected);
       const bool has_ids = found.node_ids.has_value();
       EXPECT_EQ(has_ids,
@@ -202,7 +206,7 @@ void expect_same_as_alone(const Mesh<dim>& mesh) {
       EXPECT_EQ(of_all(found.node_ids), of_all(expected.node_ids));
       EXPECT_EQ(of_all(found.cell_ids), of_all(expected.cell_ids));
     }
-    expect_same_copy<dim>(path, commented);
+    expect_same_copy<dim>(path, declared);
   }
 }
 
@@ -218,19 +222,20 @@ TEST(VtuBlocks, MixedMeshesAreThoseOfOneReader) {
 /// In the mirrored mesh, most volumes are positive in Gmsh's order of the corners.
 TEST(VtuBlocks, PrismsMayHaveTheOrderOfGmsh) {
   const Folder folder;
-  const fs::path path = folder / "mesh.vtu", commented = folder / "commented.vtu";
+  const fs::path path = folder / "mesh.vtu", declared = folder / "declared.vtu";
   const auto mesh = numbered_mesh();
   all_ranks().on_root([&] {
     auto mirrored = mesh.copied_coordinates();
     for (Point<3>& point : mirrored) point.x() = -point.x();
     write_mesh(path, VolumeMesh(mesh.shared_topology(), std::move(mirrored)));
   });
-  change(path, commented, add_comment);
+  change(path, declared, declare);
+  change(path, path, add_comment);
   const auto read = [](const fs::path& file) {
     return std::get<ScatteredMesh<3>>(Pieces(all_ranks(), file).read());
   };
   const auto found = read(path);
-  expect_equal(found, read(commented));
+  expect_equal(found, read(declared));
   all_ranks().on_root([&] { write_mesh(path, mesh); });
   const auto cells = all_cells(all_ranks(), found),
              unmirrored = all_cells(all_ranks(), read(path));  // on the root
@@ -251,7 +256,7 @@ TEST(VtuBlocks, SmoothedMeshesAreThoseOfOneReader) {
   all_ranks().on_root([&] {
     write_mesh(folder / "mesh.vtu", two_materials(box_mesh(4, 3, 3, BoxCells::tetrahedra), 0.3, 4));
   });
-  change(folder / "mesh.vtu", folder / "commented.vtu", add_comment);
+  change(folder / "mesh.vtu", folder / "declared.vtu", declare);
   const auto smoothed = [&](const char* name, const char* out) {
     const Pieces pieces(all_ranks(), folder / name);
     auto parts =
@@ -264,7 +269,7 @@ TEST(VtuBlocks, SmoothedMeshesAreThoseOfOneReader) {
     pieces.write<3>(folder / out, parts.directory);
   };
   smoothed("mesh.vtu", "out.vtu");
-  smoothed("commented.vtu", "other.vtu");
+  smoothed("declared.vtu", "other.vtu");
   all_ranks().on_root([&] {
     const auto mesh = [&](const char* name) {
       return std::get<VolumeMesh>(read_mesh(folder / name, {.turns_over = false}).mesh);

@@ -116,19 +116,25 @@ class VtuScan {
       }
       tag_ = {.at = at_};
       char quote = '\0';
-      for (char c = '\0'; c != '>' || quote != '\0';) {
+      for (char c = '\0'; c != '>' || quote != '\0' || !is_closed();) {
         c = character(at_++);
         if (c == '\0' || tag_.text.size() > most) refuse(damaged);
+        tag_.text += c;
+        if (tag_.text.starts_with("<!")) continue;  // quotes have no meaning there
         if (quote == '\0' && (c == '"' || c == '\''))
           quote = c;
         else if (c == quote)
           quote = '\0';
-        tag_.text += c;
       }
-      if (tag_.text.starts_with("<!")) refuse("it has comments");
-    } while (tag_.text.starts_with("<?"));
+      if (tag_.text.starts_with("<!") && !is_comment()) refuse("it declares a type of documents");
+    } while (tag_.text.starts_with("<?") || is_comment());
     read_tag();
     return true;
+  }
+
+  bool is_comment() const { return tag_.text.starts_with("<!--"); }
+  bool is_closed() const {
+    return !is_comment() || (tag_.text.size() >= 7 && tag_.text.ends_with("-->"));
   }
 
   void read_tag() {

@@ -44,9 +44,9 @@ struct VtuLayout {
 bool begins_as_vtk_xml(const std::filesystem::path& path);
 
 /// Finds the arrays; reads the tags and the headers of arrays only. Obstacles are another byte
-/// order, text, several pieces, ghost cells, global numbers of cells, arrays that say which nodes
-/// must stay other than 'fixed', and large compressed blocks. Types of cells are not looked at.
-/// Damaged and missing files have an obstacle, too: read_mesh() names the fault.
+/// order, text, declarations, several pieces, ghost cells, global numbers of cells, arrays that say
+/// which nodes must stay other than 'fixed', and large compressed blocks. Types of cells are not
+/// looked at. Damaged and missing files have an obstacle, too: read_mesh() names the fault.
 VtuLayout vtu_layout(const std::filesystem::path& path);
 
 }  // namespace smoothfem
