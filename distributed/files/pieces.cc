@@ -357,10 +357,10 @@ std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces) {
 
 std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) const {
   if (kind_ == Kind::whole) {
-    auto& blocks = blocks_.emplace(ranks_, path_);
-    if (blocks.obstacle().empty()) return blocks.read(purpose);
+    blocks_ = file_blocks(ranks_, path_);
+    if (blocks_->obstacle().empty()) return blocks_->read(purpose);
     if (ranks_.size() > 1)
-      notes_.push_back("the first process alone reads or writes the file: " + blocks.obstacle());
+      notes_.push_back("the first process alone reads or writes the file: " + blocks_->obstacle());
     blocks_.reset();
   }
   std::vector<ReadPiece> pieces;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -99,7 +100,7 @@ class Pieces {
   std::vector<std::filesystem::path> files_;
   /// Numbers of the nodes of each piece of this rank, since read().
   mutable std::vector<std::vector<GlobalIndex>> nodes_;
-  mutable std::optional<FileBlocks> blocks_;  ///< of a file that is read in blocks
+  mutable std::shared_ptr<FileBlocks> blocks_;  ///< of a file that is read in blocks
   mutable std::vector<std::string> notes_;
 };
 

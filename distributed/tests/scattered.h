@@ -27,4 +27,15 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const Mesh<dim>& mesh) {
   return result;
 }
 
+/// All cells of a scattered mesh, in their order, as words: number, tag, corners.
+template <int dim>
+std::vector<GlobalIndex> all_cells(const Ranks& ranks, const ScatteredMesh<dim>& mesh) {
+  std::vector<std::vector<GlobalIndex>> to(static_cast<std::size_t>(ranks.size()));
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) append_words(mesh.cells, c, to[0]);
+  const CellTable cells = sorted_cells(ranks.exchange(std::move(to)), 0);
+  std::vector<GlobalIndex> words;
+  for (std::size_t c = 0; c < cells.size(); ++c) append_words(cells, c, words);
+  return words;
+}
+
 }  // namespace smoothfem

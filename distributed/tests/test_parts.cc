@@ -14,6 +14,7 @@
 #include "distributed/files/pieces.h"
 #include "distributed/files/split.h"
 #include "distributed/partition.h"
+#include "distributed/tests/example_meshes.h"
 #include "distributed/tests/folder.h"
 #include "distributed/tests/scattered.h"
 #include "fem/tests/all_ranks.h"
@@ -34,25 +35,10 @@ using test::content_of;
 using test::Folder;
 using test::grid_mesh;
 using test::GridCells;
+using test::numbered_mesh;
+using test::two_materials;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-/// A mesh of two materials with an interface, and distorted cells.
-template <int dim>
-Mesh<dim> two_materials(const Mesh<dim>& mesh, double distortion, std::uint64_t seed) {
-  MeshLabels labels;
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-    labels.cell_tags.push_back(mesh.coordinates()[mesh.topology().cell_nodes(c)[0]][0] < 2.5 ? 1
-                                                                                             : 2);
-  auto reasons = mesh.topology().fixed_reasons();
-  const Topology tagged(dim, mesh.n_nodes(), mesh.topology().cells(), reasons, labels);
-  add_implied_reasons(tagged, reasons);
-  Mesh<dim> result(std::make_shared<const Topology>(dim, mesh.n_nodes(), mesh.topology().cells(),
-                                                    reasons, labels),
-                   mesh.copied_coordinates());
-  test::distort(result, distortion, seed);
-  return result;
-}
 
 template <int dim>
 struct Smoothed {
@@ -375,46 +361,6 @@ TEST(Parts, CopiedCellsOfPiecesCountOnce) {
   EXPECT_EQ(parts.part.topology().part()->n_cells_of_whole(), mesh.n_cells());
   EXPECT_EQ(parts.n_nodes, mesh.n_nodes());
   EXPECT_EQ(mesh_quality(parts.part).q_min, mesh_quality(mesh).q_min);
-}
-
-/// All cells of a scattered mesh, in their order, as words: number, tag, corners.
-template <int dim>
-std::vector<GlobalIndex> all_cells(const Ranks& ranks, const ScatteredMesh<dim>& mesh) {
-  std::vector<std::vector<GlobalIndex>> to(static_cast<std::size_t>(ranks.size()));
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) append_words(mesh.cells, c, to[0]);
-  const CellTable cells = sorted_cells(ranks.exchange(std::move(to)), 0);
-  std::vector<GlobalIndex> words;
-  for (std::size_t c = 0; c < cells.size(); ++c) append_words(cells, c, words);
-  return words;
-}
-
-/// Two materials between labelled facets, with numbers of nodes and cells in no order and with
-/// gaps, and a node that no cell has.
-VolumeMesh numbered_mesh() {
-  const auto mesh = two_materials(box_mesh(4, 3, 5, BoxCells::mixed), 0.3, 4);
-  MeshLabels labels = mesh.topology().labels();
-  for (std::size_t f = 0; f < 3; ++f) {
-    labels.facets.append(mesh.topology().boundary_facets()[f]);
-    labels.facet_tags.push_back(7);
-  }
-  auto points = mesh.copied_coordinates();
-  points.insert(points.begin() + 5, Point<3>(9.0, 9.0, 9.0));
-  const auto shifted = [](const CompressedRows<NodeIndex>& rows) {
-    CompressedRows<NodeIndex> result;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      std::vector<NodeIndex> row;
-      for (const NodeIndex node : rows[r]) row.push_back(node < 5 ? node : node + 1);
-      result.append(row);
-    }
-    return result;
-  };
-  labels.facets = shifted(labels.facets);
-  for (std::size_t i = 0; i < points.size(); ++i) labels.node_ids.push_back(3 + 2 * i + i % 2 * 5);
-  for (std::size_t c = 0; c < mesh.n_cells(); ++c)
-    labels.cell_ids.push_back(2 * ((c * 7) % mesh.n_cells()) + 10);
-  return {std::make_shared<const Topology>(3, points.size(), shifted(mesh.topology().cells()),
-                                           std::nullopt, std::move(labels)),
-          std::move(points)};
 }
 
 /// The first rank reads text; all read blocks of the binary file.

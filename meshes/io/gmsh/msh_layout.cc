@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/gmsh/msh_layout.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <optional>
 #include <string_view>
 
+#include "meshes/io/file_parts.h"
 #include "meshes/io/gmsh/msh_elements.h"
 #include "meshes/io/gmsh/msh_groups.h"
 #include "meshes/io/gmsh/msh_input.h"
@@ -20,32 +15,10 @@
 
 namespace smoothfem {
 
-FileParts::FileParts(const std::filesystem::path& path)
-    : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  struct stat status {};
-  if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0)
-    throw InputError(path.string() + ": cannot be opened (" + std::strerror(errno) + ")");
-  size_ = static_cast<std::uint64_t>(status.st_size);
-}
-
-FileParts::~FileParts() {
-  ::close(descriptor_);
-}
-
-void FileParts::read(std::uint64_t position, std::span<char> to) const {
-  while (!to.empty()) {
-    const ssize_t n = ::pread(descriptor_, to.data(), to.size(), static_cast<off_t>(position));
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw InputError(path_.string() + ": cannot be read (" + std::strerror(errno) + ")");
-    if (n == 0) throw InputError(path_.string() + ": the file is truncated");
-    position += static_cast<std::uint64_t>(n);
-    to = to.subspan(static_cast<std::size_t>(n));
-  }
-}
-
 namespace {
 
-constexpr std::string_view other_format = "it is not a binary .msh file of version 4.1";
+constexpr std::string_view other_format =
+    "it is neither a binary .msh file of version 4.1 nor a .vtu file";
 
 /// Goes through the sections of a file.
 class LayoutScan {

@@ -44,49 +44,57 @@ std::string VtkCells::missing_point(std::int64_t point, std::size_t n_points) co
          std::to_string(point) + ", but the file has only " + std::to_string(n_points) + " points";
 }
 
-namespace {
-
-/// Dimension and number of nodes (0: any) of a VTK cell type.
-struct CellKind {
-  int dimension;
-  std::size_t n_nodes;
-};
-
-std::optional<CellKind> kind_of(int vtk_type) {
+std::optional<VtkCellKind> vtk_cell_kind(int vtk_type) {
   switch (vtk_type) {
     case VTK_POLY_VERTEX:
     case VTK_POLY_LINE:
-      return CellKind{0, 0};  // left out
+      return VtkCellKind{0, 0};  // left out
     case VTK_VERTEX:
-      return CellKind{0, 1};
+      return VtkCellKind{0, 1};
     case VTK_LINE:
-      return CellKind{1, 2};
+      return VtkCellKind{1, 2};
     case VTK_TRIANGLE:
-      return CellKind{2, 3};
+      return VtkCellKind{2, 3};
     case VTK_QUAD:
     case VTK_PIXEL:
-      return CellKind{2, 4};
+      return VtkCellKind{2, 4};
     case VTK_POLYGON:
-      return CellKind{2, 0};
+      return VtkCellKind{2, 0};
     case VTK_TETRA:
-      return CellKind{3, 4};
+      return VtkCellKind{3, 4};
     case VTK_PYRAMID:
-      return CellKind{3, 5};
+      return VtkCellKind{3, 5};
     case VTK_WEDGE:
-      return CellKind{3, 6};
+      return VtkCellKind{3, 6};
     case VTK_HEXAHEDRON:
     case VTK_VOXEL:
-      return CellKind{3, 8};
+      return VtkCellKind{3, 8};
     default:
       return std::nullopt;
   }
 }
 
+double signed_prism_volume(std::span<const Point<3>, 6> x) {
+  const Point<3> base = (x[1] - x[0]).cross(x[2] - x[0]) + (x[4] - x[3]).cross(x[5] - x[3]);
+  return base.dot(x[3] + x[4] + x[5] - x[0] - x[1] - x[2]);
+}
+
+std::size_t vtk_id(double value) {
+  constexpr double largest_exact = 9007199254740992.0;
+  return value >= 1.0 && value <= largest_exact ? static_cast<std::size_t>(value) : 0;
+}
+
+int vtk_tag(double value) {
+  return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
+}
+
+namespace {
+
 /// Returns the linear kind of cells of any order that have their corners only.
-std::optional<CellKind> linear_kind_of(int vtk_type, std::size_t n_nodes) {
+std::optional<VtkCellKind> linear_kind_of(int vtk_type, std::size_t n_nodes) {
   const FormatElement* type = find_type(vtk_lagrange_types, vtk_type);
   if (!type || type->n_corners != n_nodes) return std::nullopt;
-  return CellKind{type->dimension, type->n_corners};
+  return VtkCellKind{type->dimension, type->n_corners};
 }
 
 /// Returns VTK's name of a type. VTK 9.1 itself confuses the names of triangles and quadrilaterals
@@ -110,24 +118,6 @@ bool is_wedge(int vtk_type) {
   constexpr std::array wedges{VTK_WEDGE, VTK_QUADRATIC_WEDGE, VTK_BIQUADRATIC_QUADRATIC_WEDGE,
                               VTK_LAGRANGE_WEDGE};
   return std::find(wedges.begin(), wedges.end(), vtk_type) != wedges.end();
-}
-
-/// Approximately six times a prism's volume; only its sign is used.
-double signed_prism_volume(const std::vector<Point<3>>& x, std::span<const NodeIndex> nodes) {
-  const Point<3> base = (x[nodes[1]] - x[nodes[0]]).cross(x[nodes[2]] - x[nodes[0]]) +
-                        (x[nodes[4]] - x[nodes[3]]).cross(x[nodes[5]] - x[nodes[3]]);
-  return base.dot(x[nodes[3]] + x[nodes[4]] + x[nodes[5]] - x[nodes[0]] - x[nodes[1]] -
-                  x[nodes[2]]);
-}
-
-/// External programs may store anything under the name of a number; 0 means none.
-std::size_t id_of(double value) {
-  constexpr double largest_exact = 9007199254740992.0;
-  return value >= 1.0 && value <= largest_exact ? static_cast<std::size_t>(value) : 0;
-}
-
-int tag_of(double value) {
-  return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
 }
 
 /// Makes the parts of a grid and consumes it.
@@ -194,7 +184,7 @@ class GridParts {
       found->order.from_file(nodes);
       return static_cast<std::size_t>(found->dimension);
     }
-    auto kind = kind_of(type);
+    auto kind = vtk_cell_kind(type);
     if (!kind) kind = linear_kind_of(type, nodes.size());
     if (!kind) refuse_type(cell, type);
     if (kind->n_nodes != 0 && nodes.size() != kind->n_nodes)
@@ -215,8 +205,14 @@ class GridParts {
   int dimension_of_cell(std::size_t cell) {
     const int type = cells_.types[cell];
     if (const FormatElement* found = find_vtk_type(type)) return found->dimension;
-    const auto kind = kind_of(type);
+    const auto kind = vtk_cell_kind(type);
     return kind->dimension == 0 && kind->n_nodes == 0 ? -1 : kind->dimension;
+  }
+
+  double prism_volume(std::span<const NodeIndex> nodes) const {
+    std::array<Point<3>, 6> x;
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = grid_.points[nodes[k]];
+    return signed_prism_volume(x);
   }
 
   /// Chooses the order of wedges, for each of VTK's types: that of Gmsh unless the one of VTK fits
@@ -225,7 +221,7 @@ class GridParts {
     std::map<int, std::ptrdiff_t> votes;  // for Gmsh's order
     for (std::size_t c = 0; c < cells_.size(); ++c)
       if (is_wedge(cells_.types[c]))
-        votes[cells_.types[c]] += signed_prism_volume(grid_.points, nodes_of(c)) > 0.0 ? 1 : -1;
+        votes[cells_.types[c]] += prism_volume(nodes_of(c)) > 0.0 ? 1 : -1;
     for (std::size_t c = 0; c < cells_.size() && !votes.empty(); ++c)
       if (is_wedge(cells_.types[c]) && votes[cells_.types[c]] <= 0) {
         const auto midside = reordered_midside(3, nodes_of(c).subspan(6), vtk_wedge);
@@ -279,7 +275,7 @@ class GridParts {
     require_rows(grid_.point_fields, grid_.points.size(), "point");
     if (const auto ids = take(grid_.point_fields, "node_id"))
       for (std::size_t i = 0; i < ids->n_rows(); ++i)
-        parts_.node_ids.push_back(id_of(ids->number(i * ids->n_components)));
+        parts_.node_ids.push_back(vtk_id(ids->number(i * ids->n_components)));
     if (const auto fixed = take(grid_.point_fields, "fixed")) {
       parts_.fixed.emplace();
       for (std::size_t i = 0; i < fixed->n_rows(); ++i)
@@ -316,7 +312,7 @@ class GridParts {
       fail("the cell array '" + field.name + "' has " + std::to_string(field.n_components) +
            " components, but tags are single integers; give another --tag-field");
     for (std::size_t i = 0; i < field.n_rows(); ++i)
-      if (const double value = field.number(i); static_cast<double>(tag_of(value)) != value)
+      if (const double value = field.number(i); static_cast<double>(vtk_tag(value)) != value)
         fail("the cell array '" + field.name + "' has the number " + number_text(value) +
              ", but tags are integers; give another --tag-field");
   }
@@ -360,8 +356,8 @@ class GridParts {
       ElementList& elements = parts_.elements[static_cast<std::size_t>(dimension)];
       if (only == n_cells.end()) elements.append_nodes(nodes_of(c), n_corners_of(c));
       const MeshField* field = of_boundary && dimension < top ? of_boundary : of_cells;
-      if (field) elements.tags.push_back(tag_of(field->number(c * field->n_components)));
-      if (ids) elements.ids.push_back(id_of(ids->number(c * ids->n_components)));
+      if (field) elements.tags.push_back(vtk_tag(field->number(c * field->n_components)));
+      if (ids) elements.ids.push_back(vtk_id(ids->number(c * ids->n_components)));
       elements.file_positions.push_back(static_cast<std::uint32_t>(c));
     }
     if (only != n_cells.end())  // large meshes are not held twice

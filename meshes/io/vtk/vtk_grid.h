@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,6 +67,23 @@ inline char vtk_character(double number) {
 /// may have Gmsh's order of nodes: the order that makes more volumes positive is used. Throws
 /// InputError that begins with the path for cells of other types, and for arrays of a wrong length.
 MeshParts parts_of_grid(const std::string& path, VtkGrid grid, const std::string& tag_field);
+
+/// Dimension and number of nodes (0: any) of a VTK cell type.
+struct VtkCellKind {
+  int dimension;
+  std::size_t n_nodes;
+};
+/// Returns the kind of a linear cell; nothing for other types.
+std::optional<VtkCellKind> vtk_cell_kind(int vtk_type);
+
+/// Approximately six times the volume of a prism with these corners; only its sign is used.
+double signed_prism_volume(std::span<const Point<3>, 6> corners);
+
+/// Returns a number of a node or cell. External programs may store anything under this name; 0
+/// means none.
+std::size_t vtk_id(double value);
+/// Returns a tag; 0 if the value is too large for one.
+int vtk_tag(double value);
 
 /// Names of arrays with tags of cells, by smoothfem, Gmsh and meshio, deal.II, MFEM, and VTK.
 /// Those of the second list have tags of cells of lower dimension, if these are not in the first.

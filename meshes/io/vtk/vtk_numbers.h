@@ -33,6 +33,14 @@ std::optional<VtkNumber> vtk_number(const std::array<VtkNumberName, n>& names,
   return found->type;
 }
 
+/// Names of types in .vtu files.
+inline constexpr std::array vtu_type_names{
+    VtkNumberName{"Int8", VtkNumber::int8},       VtkNumberName{"UInt8", VtkNumber::uint8},
+    VtkNumberName{"Int16", VtkNumber::int16},     VtkNumberName{"UInt16", VtkNumber::uint16},
+    VtkNumberName{"Int32", VtkNumber::int32},     VtkNumberName{"UInt32", VtkNumber::uint32},
+    VtkNumberName{"Int64", VtkNumber::int64},     VtkNumberName{"UInt64", VtkNumber::uint64},
+    VtkNumberName{"Float32", VtkNumber::float32}, VtkNumberName{"Float64", VtkNumber::float64}};
+
 /// A number that may also be infinite, or none: of data, unlike a coordinate.
 struct AnyNumber {
   double value;

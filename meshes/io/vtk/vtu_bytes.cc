@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/vtk/vtu_bytes.h"
 
-#include <vtkDataCompressor.h>
-#include <vtkLZ4DataCompressor.h>
-#include <vtkLZMADataCompressor.h>
-#include <vtkSmartPointer.h>
-#include <vtkZLibDataCompressor.h>
-
 #include <algorithm>
 #include <cstring>
 
-#include "meshes/io/line_reader.h"
-#include "meshes/io/vtk/vtk_messages.h"
 #include "meshes/io/vtk/vtk_numbers.h"
+#include "meshes/io/vtk/vtu_compressor.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
@@ -82,39 +75,12 @@ bool VtuBytes::read(char* to, std::size_t n) {
   return true;
 }
 
-// --- Compression ---------------------------------------------------------------------------------
-
-/// VTK's decompressor class of this name.
-class VtuDecompressor {
- public:
-  explicit VtuDecompressor(const std::string& name) {
-    if (name == "vtkZLibDataCompressor")
-      compressor_ = vtkSmartPointer<vtkZLibDataCompressor>::New();
-    if (name == "vtkLZ4DataCompressor") compressor_ = vtkSmartPointer<vtkLZ4DataCompressor>::New();
-    if (name == "vtkLZMADataCompressor")
-      compressor_ = vtkSmartPointer<vtkLZMADataCompressor>::New();
-    if (!compressor_)
-      throw InputError("is compressed by " + in_quotes(name) + ", which is not known");
-  }
-
-  /// Returns false if the block is damaged or has another size.
-  bool decompress(const std::vector<char>& from, std::vector<char>& to) const {
-    return compressor_->Uncompress(reinterpret_cast<const unsigned char*>(from.data()), from.size(),
-                                   reinterpret_cast<unsigned char*>(to.data()),
-                                   to.size()) == to.size();
-  }
-
- private:
-  VtkMessages messages_;  // suppresses messages on the terminal
-  vtkSmartPointer<vtkDataCompressor> compressor_;
-};
-
 // --- Arrays --------------------------------------------------------------------------------------
 
 VtuArrayBytes::VtuArrayBytes(VtuBytes bytes, const VtuEncoding& encoding)
     : bytes_(bytes), encoding_(encoding) {
   if (!encoding.compressor.empty()) {
-    decompressor_ = std::make_unique<VtuDecompressor>(encoding.compressor);
+    compressor_ = std::make_unique<VtuCompressor>(encoding.compressor);
     read_block_sizes();
   } else {
     size_ = header_number();
@@ -166,12 +132,12 @@ void VtuArrayBytes::next_block() {
   block_.resize(n_blocks_read_ == compressed_sizes_.size() ? last_block_size_ : block_size_);
   block_at_ = 0;
   if (!bytes_.read(compressed_.data(), compressed_.size()) ||
-      !decompressor_->decompress(compressed_, block_))
+      !compressor_->decompress(compressed_, block_))
     fail("has compressed data that cannot be read");
 }
 
 void VtuArrayBytes::read(char* to, std::size_t n) {
-  if (!decompressor_) {
+  if (!compressor_) {
     if (!bytes_.read(to, n)) fail("has fewer values than announced, or some that are not encoded");
     return;
   }

@@ -40,7 +40,13 @@ struct VtuEncoding {
   std::string compressor;       ///< VTK's class; empty if arrays are not compressed
 };
 
-class VtuDecompressor;
+/// Largest decompressed size of all arrays. A file of a few kB may announce any size; meshes shrink
+/// to about a tenth.
+constexpr std::uint64_t max_decompressed_size(std::uint64_t file_size) {
+  return (std::uint64_t{64} << 20) + 100 * file_size;
+}
+
+class VtuCompressor;
 
 /// The content of a binary array after its header, decompressed block by block. Throws InputError
 /// without a position for any damage.
@@ -52,7 +58,7 @@ class VtuArrayBytes {
 
   /// Returns the size in the header; the file has room for it, if it is not compressed.
   std::uint64_t size() const { return size_; }
-  bool is_compressed() const { return decompressor_ != nullptr; }
+  bool is_compressed() const { return compressor_ != nullptr; }
 
   void read(char* to, std::size_t n);
 
@@ -64,7 +70,7 @@ class VtuArrayBytes {
   VtuBytes bytes_;
   const VtuEncoding& encoding_;
   std::uint64_t size_ = 0;
-  std::unique_ptr<VtuDecompressor> decompressor_;
+  std::unique_ptr<VtuCompressor> compressor_;
   std::vector<std::uint64_t> compressed_sizes_;
   std::uint64_t block_size_ = 0, last_block_size_ = 0;
   std::vector<char> compressed_, block_;

@@ -12,21 +12,8 @@ namespace smoothfem {
 
 namespace {
 
-constexpr std::array type_names{
-    VtkNumberName{"Int8", VtkNumber::int8},       VtkNumberName{"UInt8", VtkNumber::uint8},
-    VtkNumberName{"Int16", VtkNumber::int16},     VtkNumberName{"UInt16", VtkNumber::uint16},
-    VtkNumberName{"Int32", VtkNumber::int32},     VtkNumberName{"UInt32", VtkNumber::uint32},
-    VtkNumberName{"Int64", VtkNumber::int64},     VtkNumberName{"UInt64", VtkNumber::uint64},
-    VtkNumberName{"Float32", VtkNumber::float32}, VtkNumberName{"Float64", VtkNumber::float64}};
-
 constexpr std::array<std::string_view, 5> section_names{"Points", "Cells", "PointData", "CellData",
                                                         "FieldData"};
-
-/// Largest decompressed size. A file of a few kB may announce any size; meshes shrink to about a
-/// tenth.
-constexpr std::uint64_t max_decompressed_size(std::uint64_t file_size) {
-  return (std::uint64_t{64} << 20) + 100 * file_size;
-}
 
 }  // namespace
 
@@ -155,11 +142,11 @@ bool VtuFile::has_binary_array() const {
 }
 
 bool VtuFile::has_numbers(const VtuArray& array) const {
-  return vtk_number(type_names, array.type).has_value();
+  return vtk_number(vtu_type_names, array.type).has_value();
 }
 
 VtkNumber VtuFile::type_of(const VtuArray& array) const {
-  if (const auto type = vtk_number(type_names, array.type)) return *type;
+  if (const auto type = vtk_number(vtu_type_names, array.type)) return *type;
   fail(array, "has numbers of the type " + in_quotes(array.type) + ", which is not known");
 }
 
