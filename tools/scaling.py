@@ -63,8 +63,8 @@ cells, one process gives a = {a:.2f} ns, and two give b = {b:.1f} ns. The others
 NO_MODEL = """
 ## Model
 
-Two processes took less than half the time of one, so that copied nodes seem to cost less than nothing. Something else ran on this machine, or it
-changed its speed. Run it again on a quiet machine.
+Two processes took less than half the time of one. So these runs do not tell what copied nodes cost, and there is no model. Noise may be the reason:
+run it again on a quiet machine.
 """
 LARGE = """
 So 10^9 cells on 10^4 processes, each with a core of its own, would take {total:.2f} ms an iteration: {compute:.2f} ms for {cells:,.0f} cells a process,
