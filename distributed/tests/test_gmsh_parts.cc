@@ -8,6 +8,7 @@
 #include "distributed/files/pieces.h"
 #include "distributed/partition.h"
 #include "distributed/tests/folder.h"
+#include "distributed/tests/smooth_pieces.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/io/gmsh/msh_parts.h"
 #include "meshes/io/mesh_assembly.h"
@@ -57,14 +58,8 @@ void write_files(const test::Folder& folder, const Variant& variant) {
 
 template <int dim>
 std::size_t smoothed(const fs::path& in, const fs::path& out) {
-  const Pieces pieces(all_ranks(), in);
-  auto parts =
-      distribute(all_ranks(), balanced(all_ranks(), std::get<ScatteredMesh<dim>>(pieces.read())));
-  auto method = make_method<dim>("getme-simultaneous");
-  smooth(parts.part, method);
-  store_coordinates(parts);
-  pieces.write<dim>(out, parts.directory);
-  return parts.part.topology().part()->n_cells_of_whole();
+  const auto part = test::smooth_pieces<dim>(all_ranks(), Pieces(all_ranks(), in), out);
+  return part.topology().part()->n_cells_of_whole();
 }
 
 std::map<std::size_t, Point<3>> nodes_by_tag(const fs::path& path) {

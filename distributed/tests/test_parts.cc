@@ -17,6 +17,7 @@
 #include "distributed/tests/example_meshes.h"
 #include "distributed/tests/folder.h"
 #include "distributed/tests/scattered.h"
+#include "distributed/tests/smooth_pieces.h"
 #include "fem/tests/all_ranks.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/smooth.h"
@@ -36,6 +37,7 @@ using test::Folder;
 using test::grid_mesh;
 using test::GridCells;
 using test::numbered_mesh;
+using test::smooth_pieces;
 using test::two_materials;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -235,13 +237,7 @@ TEST(Parts, NumberSetsKnowPositions) {
 }
 
 VolumeMesh smoothed_pieces(const Ranks& ranks, const fs::path& in, const fs::path& out) {
-  const Pieces pieces(ranks, in);
-  auto parts = distribute(ranks, balanced(ranks, std::get<ScatteredMesh<3>>(pieces.read())));
-  auto method = make_method<3>("getme-simultaneous");
-  smooth(parts.part, method);
-  store_coordinates(parts);
-  pieces.write<3>(out, parts.directory);
-  return parts.part;
+  return smooth_pieces<3>(ranks, Pieces(ranks, in), out);
 }
 
 TEST(Parts, FilesAreTheSameForAllRanks) {
@@ -460,13 +456,7 @@ template <int dim>
 void expect_pieces_as_meshes(const Mesh<dim>& mesh, const fs::path& path) {
   const fs::path out = path.parent_path() / "moved.pvtu", again = path.parent_path() / "again.vtu";
   all_ranks().on_root([&] { write_in_pieces(mesh, 3, path); });
-  const Pieces pieces(all_ranks(), path);
-  auto parts =
-      distribute(all_ranks(), balanced(all_ranks(), std::get<ScatteredMesh<dim>>(pieces.read())));
-  auto method = make_method<dim>("getme-simultaneous");
-  smooth(parts.part, method);
-  store_coordinates(parts);
-  pieces.write<dim>(out, parts.directory);
+  smooth_pieces<dim>(all_ranks(), Pieces(all_ranks(), path), out);
   all_ranks().on_root([&] {
     for (std::size_t p = 0; p < 3; ++p) {
       write_mesh(again, read_mesh(piece_file(out, p), {.turns_over = false}).mesh);

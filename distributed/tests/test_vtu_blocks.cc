@@ -23,6 +23,7 @@
 #include "distributed/tests/example_meshes.h"
 #include "distributed/tests/folder.h"
 #include "distributed/tests/scattered.h"
+#include "distributed/tests/smooth_pieces.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/smooth.h"
 
@@ -259,14 +260,9 @@ TEST(VtuBlocks, SmoothedMeshesAreThoseOfOneReader) {
   change(folder / "mesh.vtu", folder / "declared.vtu", declare);
   const auto smoothed = [&](const char* name, const char* out) {
     const Pieces pieces(all_ranks(), folder / name);
-    auto parts =
-        distribute(all_ranks(), balanced(all_ranks(), std::get<ScatteredMesh<3>>(pieces.read())));
+    test::smooth_pieces<3>(all_ranks(), pieces, folder / out, "smart-laplace");
     EXPECT_TRUE(!all_ranks().is_root() ||
                 pieces.notes().empty() == (all_ranks().size() == 1 || name[0] == 'm'));
-    auto method = make_method<3>("smart-laplace");
-    smooth(parts.part, method);
-    store_coordinates(parts);
-    pieces.write<3>(folder / out, parts.directory);
   };
   smoothed("mesh.vtu", "out.vtu");
   smoothed("declared.vtu", "other.vtu");
