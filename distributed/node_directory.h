@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "distributed/shares.h"
 #include "fem/ranks/ranks.h"
 #include "smoothing/mesh/fixed_reason.h"
 #include "smoothing/mesh/point.h"
@@ -96,9 +97,7 @@ class NodeDirectory {
     for (const GlobalIndex number : numbers) result[keeper_of(number)].push_back(number);
     return result;
   }
-  std::size_t first_of(int rank) const {
-    return n_ * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks_.size());
-  }
+  std::size_t first_of(int rank) const { return first_of_share(ranks_, n_, rank); }
   Ranks ranks_;
   std::size_t n_;
   std::vector<Entry> entries_;

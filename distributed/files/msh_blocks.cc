@@ -14,16 +14,14 @@ namespace {
 
 constexpr GlobalIndex no_number = std::numeric_limits<GlobalIndex>::max();
 
-/// Calls visit(block, first, last) for the items of some blocks that a rank handles: of all items,
-/// those from n r / P to n (r+1) / P - 1.
+/// Calls visit(block, first, last) for the items of some blocks that a rank handles: its share of
+/// all items.
 template <class Block, class Visit>
 void for_share(const std::vector<Block>& blocks, const Ranks& ranks, int rank, const Visit& visit) {
   std::uint64_t n = 0;
   for (const Block& block : blocks) n += block.n;
-  const auto bound = [&](int r) {
-    return n * static_cast<std::uint64_t>(r) / static_cast<std::uint64_t>(ranks.size());
-  };
-  const std::uint64_t first = bound(rank), last = bound(rank + 1);
+  const std::uint64_t first = first_of_share(ranks, n, rank),
+                      last = first_of_share(ranks, n, rank + 1);
   std::uint64_t at = 0;
   for (const Block& block : blocks) {
     const auto inside = [&](std::uint64_t i) { return std::clamp(i, at, at + block.n) - at; };
@@ -287,27 +285,20 @@ void MshBlocks::write_as(const std::filesystem::path& out,
                 x.insert(x.end(), of_block.begin(), of_block.end());
               });
   });
-  // The root writes one rank's range after the other.
   std::unique_ptr<AtomicFile> file;
   ranks_.on_root([&] {
     file = std::make_unique<AtomicFile>(out);
     file->copy_from(path_);
   });
-  for (int rank = 0; rank < ranks_.size(); ++rank) {
-    std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks_.size()));
-    if (rank == ranks_.rank()) to[0] = std::move(x);
-    const auto from = ranks_.exchange(std::move(to));
-    ranks_.on_root([&] {
-      const auto& numbers = from[static_cast<std::size_t>(rank)];
-      const char* next = reinterpret_cast<const char*>(numbers.data());
-      for_share(layout_.nodes, ranks_, rank,
-                [&](const MshNodeBlock& block, std::uint64_t first, std::uint64_t last) {
-                  const auto size = 8 * static_cast<std::uint64_t>(block.n_numbers);
-                  file->overwrite(block.points_at + first * size, {next, (last - first) * size});
-                  next += (last - first) * size;
-                });
-    });
-  }
+  visit_in_turn(ranks_, std::move(x), [&](int rank, const std::vector<double>& numbers) {
+    const char* next = reinterpret_cast<const char*>(numbers.data());
+    for_share(layout_.nodes, ranks_, rank,
+              [&](const MshNodeBlock& block, std::uint64_t first, std::uint64_t last) {
+                const auto size = 8 * static_cast<std::uint64_t>(block.n_numbers);
+                file->overwrite(block.points_at + first * size, {next, (last - first) * size});
+                next += (last - first) * size;
+              });
+  });
   ranks_.on_root([&] { file->finish(); });
 }
 

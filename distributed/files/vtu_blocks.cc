@@ -20,11 +20,6 @@ namespace smoothfem {
 
 namespace {
 
-/// First item of n that a rank handles: as in NodeDirectory.
-std::uint64_t first_of(const Ranks& ranks, std::uint64_t n, int rank) {
-  return n * static_cast<std::uint64_t>(rank) / static_cast<std::uint64_t>(ranks.size());
-}
-
 constexpr std::size_t n_wedge_corners = 6;
 
 /// Cells of a range of the file.
@@ -189,9 +184,9 @@ void VtuBlocks::check_types() {
     ranks_.together([&] {
       const FileParts file(path_);
       VtuArrayParts types(file, "types", layout_.arrays.types, layout_.arrays.packing);
-      types.read<std::int64_t>(first_of(ranks_, layout_.arrays.n_cells, ranks_.rank()),
-                               first_of(ranks_, layout_.arrays.n_cells, ranks_.rank() + 1), false,
-                               [&](std::int64_t type) {
+      types.read<std::int64_t>(first_of_share(ranks_, layout_.arrays.n_cells, ranks_.rank()),
+                               first_of_share(ranks_, layout_.arrays.n_cells, ranks_.rank() + 1),
+                               false, [&](std::int64_t type) {
                                  if (type >= 0 && type < 256)
                                    ++n_of_type[static_cast<std::size_t>(type)];
                                  else
@@ -263,8 +258,8 @@ ScatteredMesh<dim> VtuBlocks::read_as(ReadFor purpose) {
             node_ids.push_back(id != 0 ? id : first + node_ids.size());
           });
     range = VtuCellReader(file, arrays, dim)
-                .read(first_of(ranks_, arrays.n_cells, ranks_.rank()),
-                      first_of(ranks_, arrays.n_cells, ranks_.rank() + 1),
+                .read(first_of_share(ranks_, arrays.n_cells, ranks_.rank()),
+                      first_of_share(ranks_, arrays.n_cells, ranks_.rank() + 1),
                       purpose == ReadFor::examination);
   });
   if (dim == 2 && (ranks_.any(!is_flat) || ranks_.max(most_z) != -ranks_.max(-least_z)))
@@ -303,7 +298,7 @@ void VtuBlocks::write_as(const std::filesystem::path& out,
   const std::uint64_t n_bytes = point_size * layout_.arrays.n_points,
                       n_blocks = (n_bytes + vtu_block_size - 1) / vtu_block_size;
   const auto bound = [&](int rank) {
-    return std::min(n_bytes, vtu_block_size * first_of(ranks_, n_blocks, rank));
+    return std::min(n_bytes, vtu_block_size * first_of_share(ranks_, n_blocks, rank));
   };
   const std::uint64_t begin = bound(ranks_.rank()), end = bound(ranks_.rank() + 1),
                       first = begin / point_size, last = (end + point_size - 1) / point_size;
@@ -333,18 +328,11 @@ void VtuBlocks::write_as(const std::filesystem::path& out,
   }
   x = {};
   sizes = ranks_.gather(sizes);
-  // The root writes one rank's range after the other.
   std::unique_ptr<VtuCopy> file;
   ranks_.on_root([&] { file = std::make_unique<VtuCopy>(path_, layout_, out, sizes); });
-  for (int rank = 0; rank < ranks_.size(); ++rank) {
-    std::vector<std::vector<char>> to(static_cast<std::size_t>(ranks_.size()));
-    if (rank == ranks_.rank()) to[0] = std::move(packed);
-    const auto from = ranks_.exchange(std::move(to));
-    ranks_.on_root([&] {
-      const auto& next = from[static_cast<std::size_t>(rank)];
-      file->append({next.data(), next.size()});
-    });
-  }
+  visit_in_turn(ranks_, std::move(packed), [&](int, const std::vector<char>& next) {
+    file->append({next.data(), next.size()});
+  });
   ranks_.on_root([&] { file->finish(); });
 }
 

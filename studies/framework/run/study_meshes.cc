@@ -126,6 +126,12 @@ bool is_untangled(const StudyMesh& description, const Source& source) {
   return description.untangle && !source.file.empty() && !source.published;
 }
 
+/// True if the mesh is not that of a file as it is, so that a copy is kept.
+bool is_made(const StudyMesh& description, const Source& source) {
+  return source.file.empty() || is_untangled(description, source) ||
+         (is_distorted(description) && !source.published);
+}
+
 template <int dim, int spacedim>
 void distort_as_described(const StudyMesh& description, Mesh<dim, spacedim>& mesh) {
   DistortionParameters parameters;
@@ -227,10 +233,8 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
   const bool has_more = !source.file.empty() ||
                         (!description.domain.empty() && find_domain(description.domain).has_groups);
   const std::string source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file);
-  const bool is_made = source.file.empty() || is_untangled(description, source) ||
-                       (is_distorted(description) && !source.published);
   std::string kept_name;
-  if (dim == spacedim && is_made)
+  if (dim == spacedim && is_made(description, source))
     kept_name = kept_mesh_name(description, source_sha256, study.edge_scale);
   const auto found =
       kept == nullptr || kept_name.empty() ? std::nullopt : kept->find_mesh(kept_name);
@@ -336,28 +340,28 @@ PreparedMesh<dim> prepare_mesh_in_parts(const StudyMesh& description, const Stud
                                         const std::filesystem::path& mesh_dir,
                                         const KeptResults& kept, const Ranks& ranks) {
   const Source source = source_of(description, mesh_dir);
-  const bool is_list = Pieces::is_list(source.file);
-  const bool is_made = source.file.empty() || is_untangled(description, source) ||
-                       (is_distorted(description) && !source.published) ||
-                       (study.refine > 0 && !is_list);
+  const bool root_makes =
+      is_made(description, source) || (study.refine > 0 && !Pieces::is_list(source.file));
+  const bool has_copy = root_makes || study.refine > 0;
   std::filesystem::path file = source.file;
   std::string kept_name, source_sha256;
   std::vector<std::string> changes;
-  if (!file.empty()) source_sha256 = content_of_pieces(ranks, Pieces(ranks, file));
-  if (is_made || study.refine > 0) {
+  if (has_copy) {
+    if (!file.empty()) source_sha256 = content_of_pieces(ranks, Pieces(ranks, file));
     kept_name = kept_mesh_name(description, source_sha256, study.edge_scale) +
                 (study.refine > 0 ? "-refined-" + std::to_string(study.refine) : "");
     file = kept.pieces_file(kept_name);
     bool is_kept = ranks.is_root() && kept.load_notes(kept_name).has_value();
     ranks.broadcast(is_kept);
     if (!is_kept)
-      make_pieces<dim>(description, study, mesh_dir, is_made ? "" : source.file, kept_name, kept,
+      make_pieces<dim>(description, study, mesh_dir, root_makes ? "" : source.file, kept_name, kept,
                        ranks);
     changes = kept.load_notes(kept_name).value();
   }
   auto parts = std::make_shared<MeshInParts<dim>>(ranks, file);
+  if (!has_copy) source_sha256 = parts->content();
   changes.insert(changes.end(), parts->notes().begin(), parts->notes().end());
-  if (!is_made && !study.degrees.empty())
+  if (!root_makes && !study.degrees.empty())
     for (const auto& not_looked_for : require_conforming_parts(ranks, source.file))
       changes.push_back(not_looked_for);
   const std::string refined =

@@ -31,12 +31,10 @@ DistributedMesh<dim> read_parts(const Ranks& ranks, const std::filesystem::path&
 }  // namespace
 
 std::string content_of_pieces(const Ranks& ranks, const Pieces& pieces) {
-  const auto& files = pieces.files();
   std::string digests;
   ranks.together([&] {
-    const std::size_t last = first_piece_of(ranks, ranks.rank() + 1, files.size());
-    for (std::size_t p = first_piece_of(ranks, ranks.rank(), files.size()); p < last; ++p)
-      digests += sha256_of_file(files[p]);
+    for (std::size_t p = pieces.first_piece(); p < pieces.last_piece(); ++p)
+      digests += sha256_of_file(pieces.files()[p]);
   });
   return digest_of(ranks, digests);
 }
