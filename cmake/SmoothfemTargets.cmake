@@ -28,6 +28,16 @@ function(smoothfem_compile_together target files)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
+# As above, but only the files of each of these folders of the calling one, all at once.
+function(smoothfem_compile_folders_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  foreach(folder IN LISTS ARGN)
+    file(GLOB files CONFIGURE_DEPENDS ${folder}/*.cc)
+    set_property(SOURCE ${files} PROPERTY UNITY_GROUP ${folder})
+  endforeach()
+endfunction()
+
 # smoothfem_add_library(NAME source...): smoothfem::NAME. Shared, not static: an archive would drop the
 # files that only register themselves.
 function(smoothfem_add_library name)
@@ -82,6 +92,15 @@ if(SMOOTHFEM_BUILD_TESTS)
   smoothfem_precompile(smoothfem_test_headers <gtest/gtest.h> <gmock/gmock.h>)
 endif()
 
+# How all programs of tests are compiled: eight files at once, as much of the time goes into headers (smoothing_unit_test takes 87
+# CPU seconds, not 154).
+function(smoothfem_compile_as_test name)
+  target_compile_options(${name} PRIVATE ${test_compile_options})
+  target_precompile_headers(${name} REUSE_FROM smoothfem_test_headers)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests
+    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # smoothfem_add_test(NAME label [SERIAL] [ALSO_LONG] [SHARDS n] SOURCES source... LIBRARIES library...): a GoogleTest program, which
 # is one entry of ctest, or n of them that share its cases. A program a case would start 2,000 processes, each of which
 # loads up to 225 libraries; NAME --gtest_filter=CASE in the folder tests runs one. The labels are unit, integration or
@@ -96,15 +115,11 @@ function(smoothfem_add_test name label)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE smoothfem_options ${ARG_LIBRARIES} GTest::gtest GTest::gmock
                                         GTest::gtest_main)
-  target_compile_options(${name} PRIVATE ${test_compile_options})
-  target_precompile_headers(${name} REUSE_FROM smoothfem_test_headers)
   target_compile_definitions(${name} PRIVATE
     SMOOTHFEM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     SMOOTHFEM_SHARED_MESHES="${PROJECT_SOURCE_DIR}/../shared/meshes"
     ${ARG_DEFINITIONS})
-  # Compiled eight files at once, as much of the time goes into headers: smoothing_unit_test takes 87 CPU seconds, not 154.
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests
-    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  smoothfem_compile_as_test(${name})
   smoothfem_list_test(${name} ${label} "${ARG_SERIAL}" "${ARG_SHARDS}")
   if(ARG_ALSO_LONG)
     add_test(NAME ${name}_long COMMAND ${name} --gtest_brief=1)
@@ -150,16 +165,29 @@ function(smoothfem_add_bench name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bench)
 endfunction()
 
-# smoothfem_add_mpi_test(NAME LABELS ranks...): runs a test's program on these numbers of processes, with any number of cores;
-# also as root, for containers.
+# smoothfem_add_mpi_program(NAME SOURCES source... LIBRARIES library...): a GoogleTest program for several processes, with a main of
+# its own (fem/tests/all_ranks.h).
+function(smoothfem_add_mpi_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE smoothfem_options ${ARG_LIBRARIES} GTest::gtest GTest::gmock)
+  smoothfem_compile_as_test(${name})
+endfunction()
+
+# smoothfem_add_mpi_test(NAME LABELS ranks...): runs such a program on these numbers of processes, with any number of cores; also as
+# root, for containers. Next to several processes nothing else runs: on busy cores they wait for each other ten times as long.
 function(smoothfem_add_mpi_test name labels)
-  add_dependencies(smoothfem_tests ${name})
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  if(NOT labels STREQUAL long)  # `./run test --all` builds everything
+    add_dependencies(smoothfem_tests ${name})
+  endif()
   foreach(n_ranks IN LISTS ARGN)
     add_test(NAME ${name}_${n_ranks}_ranks
       COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${n_ranks} --oversubscribe --mca mpi_yield_when_idle 1
-              $<TARGET_FILE:${name}>)
+              $<TARGET_FILE:${name}> --gtest_brief=1)
     set_tests_properties(${name}_${n_ranks}_ranks PROPERTIES LABELS "${labels}"
       ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_WAIT_POLICY=passive")
+    if(n_ranks GREATER 1)
+      set_tests_properties(${name}_${n_ranks}_ranks PROPERTIES RUN_SERIAL TRUE)
+    endif()
   endforeach()
 endfunction()

@@ -6,7 +6,7 @@
 
 PROGRAM: bin/smoothfem, built from SOURCE. The other programs are yours; a program that is not given has no rows.
 --parmmg: parmmg_O3 of ParMmg. --mesquite: a program that runs Mesquite's LaplaceWrapper in parallel, called as PROGRAM IN.vtk OUT.vtk laplace N, which
-prints "smoothed in S s"; N: limit of iterations, 0 for the wrapper's own end.
+prints "smoothed in S s"; N: limit of iterations, 0 for the wrapper's own end. PROGRAM --version prints Mesquite's version.
 
 The rules of the comparison were fixed before it began:
 
@@ -129,7 +129,8 @@ class Mesquite(Tool):
             "without culling, until nodes move by less than 0.001 edges); one pass is an iteration")
 
     def version(self):
-        return "2.99"
+        text = subprocess.run([self.program, "--version"], capture_output=True, text=True, check=True).stdout
+        return re.search(r"\d+(\.\d+)+", text)[0]
 
     def words(self, given, written, is_pass):
         return [given, written, "laplace", 1 if is_pass else 0]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run by mpirun: all processes together find what one finds in the whole mesh.
+// All processes together find what one finds in the whole mesh.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,6 @@ using test::GridCells;
 using test::octree;
 using test::quadtree;
 using test::sick_parts;
-using test::unit_square;
 using test::with_seam;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -109,7 +108,7 @@ TEST(ExamineParts, FindsCellsInTheWrongDirection) {
     }
   }
   // The fifth node lies outside, so that one cell is folded. Another one is mirrored.
-  auto x = unit_square;
+  auto x = test::unit_square;
   x.emplace_back(0.5, 1.5, 0.0);
   EXPECT_THAT(kinds_in(sick_parts(2, x, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {0, 3, 4}})),
               testing::ElementsAre(FindingKind::reversed_cells, FindingKind::folded_cells));
@@ -146,7 +145,7 @@ TEST(ExamineParts, FindsWhatDoesNotFitTogether) {
 }
 
 TEST(ExamineParts, FindsCellsOfWhichNoMeshIsMade) {
-  auto x = unit_square;
+  auto x = test::unit_square;
   x.insert(x.end(), {{0.5, -1.0, 0.0}, {7.0, 7.0, 0.0}, {0.4, 2.0, 0.0}});
   EXPECT_THAT(
       kinds_in(sick_parts(2, x, {{0, 1, 2}, {0, 2, 3}, {2, 0, 1}, {0, 2, 6}, {0, 4, 4, 1}})),
@@ -192,14 +191,14 @@ TEST(ExamineParts, FindsTheFaultsOfRandomCells) {
 }
 
 TEST(ExamineParts, RefusesCoordinatesAndCellsOfNoMesh) {
-  MeshParts parts = sick_parts(2, unit_square, {{0, 1, 2}, {0, 2, 3}});
+  MeshParts parts = sick_parts(2, test::unit_square, {{0, 1, 2}, {0, 2, 3}});
   parts.coordinates[3].x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT([&] { examined<2>(parts); },
               ThrowsMessage<InputError>(HasSubstr("node 3 has the coordinate nan")));
-  const MeshParts line = sick_parts(2, unit_square, {{0, 1, 2}, {0, 2}});
+  const MeshParts line = sick_parts(2, test::unit_square, {{0, 1, 2}, {0, 2}});
   EXPECT_THAT([&] { examined<2>(line); },
               ThrowsMessage<InputError>(HasSubstr("cell 1 has 2 nodes, which no cell can have")));
-  auto twice = spread<2>(sick_parts(2, unit_square, {{0, 1, 2}, {0, 2, 3}}), true);
+  auto twice = spread<2>(sick_parts(2, test::unit_square, {{0, 1, 2}, {0, 2, 3}}), true);
   for (GlobalIndex& number : twice.cells.numbers) number = 4;
   EXPECT_THAT([&] { examine_parts(all_ranks(), std::move(twice)); },
               ThrowsMessage<InputError>(HasSubstr("1 cell has the number of another cell")));
@@ -246,7 +245,3 @@ TEST(ExamineParts, NamesTheNumbersOfTheFile) {
 
 }  // namespace
 }  // namespace smoothfem
-
-int main(int argc, char** argv) {
-  return smoothfem::test::run_on_all_ranks(argc, argv);
-}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run by mpirun: files into which Gmsh has split a mesh.
+// Files into which Gmsh has split a mesh.
 #include <gmock/gmock.h>
 #include <gmsh.h>
 #include <gtest/gtest.h>
@@ -161,7 +161,3 @@ TEST(GmshParts, AllFilesMustBeThere) {
 
 }  // namespace
 }  // namespace smoothfem
-
-int main(int argc, char** argv) {
-  return smoothfem::test::run_on_all_ranks(argc, argv);
-}

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run by mpirun: results must not depend on the number of processes. Each rank runs every test,
-// the root alone reports.
+// Results must not depend on the number of processes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -488,7 +487,3 @@ TEST(Parts, BadPiecesAreRefusedOnAllRanks) {
 
 }  // namespace
 }  // namespace smoothfem
-
-int main(int argc, char** argv) {
-  return smoothfem::test::run_on_all_ranks(argc, argv);
-}

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run by mpirun: a record on a mesh of which each rank has a part is that of the whole mesh. Each
-// rank runs every test, the root alone reports.
+// A record on a mesh of which each rank has a part is that of the whole mesh.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -137,7 +136,3 @@ TEST(RecordsInParts, RefusesOnAllRanksWhatNeedsTheWholeMesh) {
 
 }  // namespace
 }  // namespace smoothfem
-
-int main(int argc, char** argv) {
-  return smoothfem::test::run_on_all_ranks(argc, argv);
-}

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run by mpirun: the refined pieces must be those of the whole refined mesh on any number of
-// processes. Each rank runs every test, the root alone reports.
+// The refined pieces must be those of the whole refined mesh on any number of processes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -279,7 +278,3 @@ TEST(RefinePieces, OthersAreRefusedOnAllRanks) {
 
 }  // namespace
 }  // namespace smoothfem
-
-int main(int argc, char** argv) {
-  return smoothfem::test::run_on_all_ranks(argc, argv);
-}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run by mpirun, as test_parts.cc. A declaration in a file makes the first rank read it alone.
+// A declaration in a file makes the first rank read it alone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vtkCellArray.h>
@@ -360,7 +360,3 @@ TEST(VtuBlocks, DamagedFilesAreRefusedOnAllRanks) {
 
 }  // namespace
 }  // namespace smoothfem
-
-int main(int argc, char** argv) {
-  return smoothfem::test::run_on_all_ranks(argc, argv);
-}

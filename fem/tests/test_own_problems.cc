@@ -61,14 +61,14 @@ class OwnProblemTest : public testing::TestWithParam<Case> {
   static void expect_orders(const OwnProblem& problem, const std::vector<std::string>& natural) {
     const int degree = GetParam().degree;
     std::vector<double> l2, h1;
-    for (const std::size_t refinement : {1UL, 2UL, 4UL})
+    for (const std::size_t refinement : {1UL, 2UL})
       GetParam().on_mesh(8 * refinement, 4 * refinement, 0.15, [&]<int dim>(const Mesh<dim>& mesh) {
         const auto record = solve(with_groups(mesh), problem.solution<dim>(), natural, true);
         l2.push_back(record.l2_error);
         h1.push_back(record.h1_error);
       });
-    EXPECT_NEAR(std::log2(l2[1] / l2[2]), degree + 1, 0.3);
-    EXPECT_NEAR(std::log2(h1[1] / h1[2]), degree, 0.2);
+    EXPECT_NEAR(std::log2(l2[0] / l2[1]), degree + 1, 0.3);
+    EXPECT_NEAR(std::log2(h1[0] / h1[1]), degree, 0.2);
   }
 };
 

@@ -24,13 +24,17 @@ def source(path, pattern):
 
 
 class Blocks(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.blocks = blocks()
+
     def test_pages_are_up_to_date(self):
-        for path, made in blocks().items():
+        for path, made in self.blocks.items():
             with self.subTest(path.name):
                 self.assertEqual(path.read_text(encoding="utf-8"), updated(path, made), HOW)
 
     def test_no_page_has_another_block(self):
-        known = {path: set(made) for path, made in blocks().items()}
+        known = {path: set(made) for path, made in self.blocks.items()}
         for path in (data_folder() / "README.md", data_folder() / "paper" / "paper.md", *(data_folder() / "docs").rglob("*.md")):
             found = re.findall(r"<!-- begin (\S+): made by", path.read_text(encoding="utf-8"))
             self.assertEqual(sorted(found), sorted(known.get(path, ())), path)

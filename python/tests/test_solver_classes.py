@@ -16,7 +16,7 @@ set timing runs = 1
 subsection mesh mesh
   set domain     = {domain}
   set elements   = {elements}
-  set edge scale = 4
+  set edge scale = 6
   set distort to = 0.7
 end
 subsection solver own

@@ -10,7 +10,7 @@ namespace smoothfem {
 
 namespace {
 
-Registry<MethodScheme>& registry() {
+Registry<MethodScheme>& registered_schemes() {
   static Registry<MethodScheme> schemes("scheme");
   return schemes;
 }
@@ -18,12 +18,12 @@ Registry<MethodScheme>& registry() {
 }  // namespace
 
 RegisteredScheme::RegisteredScheme(MethodScheme scheme) {
-  registry().add(std::move(scheme));
+  registered_schemes().add(std::move(scheme));
 }
 
 std::optional<MethodInFile> method_in_file(const std::string& name) {
   const auto first = name.find(':'), last = name.rfind(':');
-  const auto& schemes = registry().all();
+  const auto& schemes = registered_schemes().all();
   if (first == std::string::npos ||
       std::none_of(schemes.begin(), schemes.end(),
                    [&](const auto& s) { return s.name == name.substr(0, first); }))
@@ -45,7 +45,7 @@ std::string method_name_in(const std::filesystem::path& folder, const std::strin
 }
 
 MethodEntry make_entry(const MethodInFile& method) {
-  return registry().find(method.scheme).make(method);
+  return registered_schemes().find(method.scheme).make(method);
 }
 
 }  // namespace smoothfem
