@@ -55,19 +55,15 @@ MODEL = """
 ## Model
 
 An iteration takes a seconds for each cell of a process and b seconds for each copied node. More processes than cores share these. With {cells:,.0f}
-cells, one process gives a = {a:.2f} ns, and two give b = {b:.1f} ns. The others test the model:
+cells, one process gives a = {a:.2f} ns. The first design took b from two processes: {by_two:.1f} ns. The copies of two processes cost less than
+runs differ, so that this b may even be negative. Since 2026-11-30, b is also taken from eight processes: {by_eight:.1f} ns. The other numbers of
+processes test both:
 
-| processes | predicted, ns a cell | measured, ns a cell | measured / predicted |
+| processes | measured, ns a cell | predicted, b of two | predicted, b of eight |
 |--:|--:|--:|--:|
 """
-NO_MODEL = """
-## Model
-
-Two processes took less than half the time of one. So these runs do not tell what copied nodes cost, and there is no model. Noise may be the reason:
-run it again on a quiet machine.
-"""
 LARGE = """
-So 10^9 cells on 10^4 processes, each with a core of its own, would take {total:.2f} ms an iteration: {compute:.2f} ms for {cells:,.0f} cells a process,
+With b of eight processes, 10^9 cells on 10^4 processes, each with a core of its own, would take {total:.2f} ms an iteration: {compute:.2f} ms for {cells:,.0f} cells a process,
 and {exchange:.2f} ms for {copies:,.0f} copied nodes (those of {processes} processes above, in proportion to the surface). The model knows no
 network: its latency, for {neighbours:.0f} neighbours with three messages each and five sums over all processes, comes on top.
 """
@@ -176,21 +172,21 @@ def model(runs, processes, found):
 
     def cores(case):
         return min(case[0], os.cpu_count())
+
+    def copies(case):
+        return case[0] * middle(case, "copies")
     cells = middle((1, 1), "cells")
     a = seconds((1, 1)) / cells
-    b = (cores((2, 1)) * seconds((2, 1)) - a * cells) / (2 * middle((2, 1), "copies"))
-    if b < 0:
-        yield NO_MODEL
-        return
-    yield MODEL.format(cells=cells, a=1e9 * a, b=1e9 * b)
+    b = {case: (cores(case) * seconds(case) - a * cells) / copies(case) for case in ((2, 1), (8, 1))}
+    yield MODEL.format(cells=cells, a=1e9 * a, by_two=1e9 * b[2, 1], by_eight=1e9 * b[8, 1])
     for case in runs:
-        if case[0] > 2:
-            predicted = (a * cells + b * case[0] * middle(case, "copies")) / cores(case)
-            yield f"| {case[0]} | {1e9 * predicted / cells:.2f} | {1e9 * seconds(case) / cells:.2f} | {seconds(case) / predicted:.2f} |\n"
+        if case[0] > 1:
+            predicted = ("–" if case == fitted else f"{1e9 * (a + b[fitted] * copies(case) / cells) / cores(case):.2f}" for fitted in b)
+            yield f"| {case[0]} | {1e9 * seconds(case) / cells:.2f} | {' | '.join(predicted)} |\n"
     share = 1e9 / 1e4
-    copies = found["copies"] * (share * processes / found["cells"]) ** (2 / 3)
-    yield LARGE.format(total=1e3 * (a * share + b * copies), compute=1e3 * a * share, exchange=1e3 * b * copies, cells=share, copies=copies,
-                       processes=processes, neighbours=found["neighbours"])
+    most_copies = found["copies"] * (share * processes / found["cells"]) ** (2 / 3)
+    yield LARGE.format(total=1e3 * (a * share + b[8, 1] * most_copies), compute=1e3 * a * share, exchange=1e3 * b[8, 1] * most_copies,
+                       cells=share, copies=most_copies, processes=processes, neighbours=found["neighbours"])
 
 
 def main():

@@ -49,7 +49,7 @@ NEED_PUBLISHED = ("--published", "--mesh-dir")
 # `console` blocks are not run: {page: reason}.
 CONSOLE = {
     "how-to/many-meshes": "mpirun across machines, SLURM and GNU parallel are not available; `--shard` and `merge` are run above them",
-    "how-to/many-processes": "processes of mpirun; distributed/tests/test_parts.cc runs this work on 1, 2, 3 and 7",
+    "how-to/many-processes": "processes of mpirun; the tests in distributed/tests run this work on 1 to 7",
     "how-to/restart-and-mpi": "a study of hours on several processes; studies/tests/test_resume.cc runs studies with mpirun",
     "tutorials/smoother-in-python": "it runs until Ctrl-C; launcher/tests/test_watch.py changes a study that is watched",
     "how-to/latex": "LaTeX is optional; plots/tests/test_latex.py makes the figures and tables of this page and compiles its document",
