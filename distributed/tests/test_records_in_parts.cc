@@ -12,6 +12,7 @@
 #include "fem/tests/same_record.h"
 #include "fem/tests/unit_mesh.h"
 #include "smoothing/loop/smooth.h"
+#include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem {
 namespace {
@@ -129,7 +130,8 @@ TEST(RecordsInParts, RefusesOnAllRanksWhatNeedsTheWholeMesh) {
   EXPECT_THAT([&] { make({.degree = 2}); }, ThrowsMessage<InputError>(HasSubstr("have degree 1")));
   EXPECT_THAT([&] { make({.natural_groups = {"right"}}); },
               ThrowsMessage<InputError>(HasSubstr("whole boundary")));
-  const auto no_unknown = in_parts(unit_cube(1, Cells::tetrahedra, 0.0), false);
+  // All nodes lie on the boundary.
+  const auto no_unknown = in_parts(test::box_mesh(8, 1, 1, test::BoxCells::hexahedra), false);
   EXPECT_THAT([&] { PoissonSolver<3>(&no_unknown.part, PoissonOptions{}, all_ranks()); },
               ThrowsMessage<InputError>(HasSubstr("no unknown")));
 }
