@@ -131,7 +131,7 @@ TEST(RecordsInParts, RefusesOnAllRanksWhatNeedsTheWholeMesh) {
   EXPECT_THAT([&] { make({.natural_groups = {"right"}}); },
               ThrowsMessage<InputError>(HasSubstr("whole boundary")));
   // All nodes lie on the boundary.
-  const auto no_unknown = in_parts(test::box_mesh(8, 1, 1, test::BoxCells::hexahedra), false);
+  const auto no_unknown = in_parts(test::box_mesh(8, 1, 1, test::BoxCells::hexahedra), true);
   EXPECT_THAT([&] { PoissonSolver<3>(&no_unknown.part, PoissonOptions{}, all_ranks()); },
               ThrowsMessage<InputError>(HasSubstr("no unknown")));
 }
