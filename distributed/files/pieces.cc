@@ -4,14 +4,17 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/gmsh/msh_parts.h"
 #include "meshes/io/line_reader.h"
+#include "meshes/io/losses.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/io/vtk/vtk_files.h"
+#include "meshes/io/vtk/vtk_grid.h"
 #include "meshes/io/vtk/xml_tags.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/mesh/interfaces.h"
@@ -19,8 +22,6 @@
 namespace smoothfem {
 
 namespace {
-
-constexpr const char* global_ids_role = "GlobalIds";
 
 /// What a rank keeps of one piece until all are read.
 struct ReadPiece {
@@ -32,17 +33,6 @@ struct ReadPiece {
   int dim = 0;
   bool has_marks = false;
 };
-
-/// Returns the values of the field with the role GlobalIds; null if there is no such field of
-/// integers.
-const std::vector<std::int64_t>* global_ids(const std::map<std::string, std::string>& roles,
-                                            const std::vector<MeshField>& fields) {
-  const auto name = roles.find(global_ids_role);
-  if (name == roles.end()) return nullptr;
-  for (const MeshField& field : fields)
-    if (field.name == name->second) return std::get_if<std::vector<std::int64_t>>(&field.values);
-  return nullptr;
-}
 
 std::vector<std::int64_t> node_numbers(const MeshParts& parts) {
   const auto* ids = global_ids(parts.content.node_roles, parts.content.node_fields);
@@ -121,6 +111,32 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
     piece.cell_ids = ids_to_show(cells.ids, cells.nodes.size());
   }
   return piece;
+}
+
+[[noreturn]] void refuse_coordinate(const std::filesystem::path& path, std::size_t node) {
+  throw InputError(path.string() + ": node " + std::to_string(node) +
+                   " has a coordinate that is not a finite number");
+}
+
+/// Throws InputError if a coordinate of a piece is not finite.
+void require_finite(const std::filesystem::path& path, const MeshParts& parts) {
+  for (std::size_t i = 0; i < parts.coordinates.size(); ++i)
+    if (!parts.coordinates[i].allFinite())
+      refuse_coordinate(path, parts.node_ids.empty() ? i : parts.node_ids[i]);
+}
+
+/// As above, of a mesh. Collective.
+template <int dim>
+void require_finite(const Ranks& ranks, const std::filesystem::path& path,
+                    ScatteredMesh<dim>& mesh) {
+  const auto& entries = mesh.nodes.entries();
+  const auto bad = std::find_if(entries.begin(), entries.end(),
+                                [](const auto& entry) { return !entry.point().allFinite(); });
+  double first = std::numeric_limits<double>::infinity();
+  if (bad != entries.end())
+    first = static_cast<double>(mesh.nodes.first()) + static_cast<double>(bad - entries.begin());
+  ranks.min({&first, 1});
+  if (std::isfinite(first)) refuse_coordinate(path, static_cast<std::size_t>(first));
 }
 
 /// True if the largest number of a node is so large that a table of all numbers would be wasteful.
@@ -244,10 +260,11 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& pa
   throw InputError(path.string() + ": has changed since it was read");
 }
 
-/// Writes a file of any format with other coordinates.
+/// Writes a file of any format with other coordinates. Returns what it cannot hold.
 template <int dim>
-void write_whole(const std::filesystem::path& path, const std::vector<NodeEntry<dim>>& entries,
-                 const std::filesystem::path& out) {
+std::vector<std::string> write_whole(const std::filesystem::path& path,
+                                     const std::vector<NodeEntry<dim>>& entries,
+                                     const std::filesystem::path& out) {
   MeshFile file = read_mesh(path, {.turns_over = false});
   auto* const mesh = std::get_if<Mesh<dim>>(&file.mesh);
   if (mesh == nullptr || mesh->n_nodes() != entries.size()) refuse_changed(path);
@@ -256,7 +273,9 @@ void write_whole(const std::filesystem::path& path, const std::vector<NodeEntry<
     mesh->coordinates()[i] = entries[i].point();
     reasons.push_back(entries[i].reasons);
   }
-  write_mesh(out, with_fixed_nodes(std::move(*mesh), std::move(reasons)));
+  *mesh = with_fixed_nodes(std::move(*mesh), std::move(reasons));
+  write_mesh(out, *mesh);
+  return losses(out, *mesh);
 }
 
 /// As above, a piece, whose cells were checked when the parts were made.
@@ -337,11 +356,22 @@ void Pieces::require_output(const std::filesystem::path& out) const {
                      " are written as Gmsh's files; give a name that ends with " +
                      path_.extension().string());
   if (kind_ != Kind::vtk) require_mesh_path(out);
-  std::error_code ignored;
-  if (std::filesystem::equivalent(files_.front(), kind_ == Kind::gmsh ? msh_part_file(out, 1) : out,
-                                  ignored) ||
-      std::filesystem::equivalent(path_, out, ignored))
-    throw InputError("-o names the mesh itself; give another file name");
+  require_other_files(input_files(), output_files(out));
+}
+
+std::vector<std::filesystem::path> Pieces::input_files() const {
+  auto files = files_;
+  if (kind_ == Kind::vtk) files.push_back(path_);
+  return files;
+}
+
+std::vector<std::filesystem::path> Pieces::output_files(const std::filesystem::path& out) const {
+  if (kind_ == Kind::whole) return {out};
+  if (kind_ == Kind::vtk) return files_of_list(out, files_.size());
+  std::vector<std::filesystem::path> files;
+  for (std::size_t p = 0; p < files_.size(); ++p)
+    files.push_back(msh_part_file(out, static_cast<int>(p) + 1));
+  return files;
 }
 
 std::string Pieces::output_text(const std::filesystem::path& out) const {
@@ -358,7 +388,12 @@ std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces) {
 std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) const {
   if (kind_ == Kind::whole) {
     blocks_ = file_blocks(ranks_, path_);
-    if (blocks_->obstacle().empty()) return blocks_->read(purpose);
+    if (blocks_->obstacle().empty()) {
+      auto mesh = blocks_->read(purpose);
+      if (purpose == ReadFor::smoothing)
+        std::visit([&](auto& of_dim) { require_finite(ranks_, path_, of_dim); }, mesh);
+      return mesh;
+    }
     if (ranks_.size() > 1)
       notes_.push_back("the first process alone reads or writes the file: " + blocks_->obstacle());
     blocks_.reset();
@@ -369,6 +404,7 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
     std::size_t n_nodes = 0;
     for (std::size_t p = first_piece(); p < last_piece(); ++p) {
       MeshParts parts = read_mesh_parts(files_[p]);
+      if (purpose == ReadFor::smoothing) require_finite(files_[p], parts);
       if (kind_ == Kind::whole) notes_.insert(notes_.end(), parts.notes.begin(), parts.notes.end());
       pieces.push_back(
           take_piece(files_[p], std::move(parts), n_nodes, cells, purpose, kind_ == Kind::gmsh));
@@ -452,8 +488,10 @@ void Pieces::write(const std::filesystem::path& out,
                                        [](const NodeEntry<dim>& entry) { return entry; });
     ranks_.together([&] {
       if (!p) return;
-      kind_ == Kind::vtk ? write_piece<dim>(files_[*p], parts(*p), entries, piece_file(out, *p))
-                         : write_whole<dim>(files_[*p], entries, out);
+      if (kind_ == Kind::vtk)
+        write_piece<dim>(files_[*p], parts(*p), entries, piece_file(out, *p));
+      else
+        losses_ = write_whole<dim>(files_[*p], entries, out);
     });
   });
   ranks_.together([&] {
@@ -494,6 +532,24 @@ std::filesystem::path piece_file(const std::filesystem::path& out, std::size_t p
   char number[32];
   std::snprintf(number, sizeof number, "_%04zu.vtu", piece);
   return out.parent_path() / stem / (stem + number);
+}
+
+std::vector<std::filesystem::path> files_of_list(const std::filesystem::path& out,
+                                                 std::size_t n_pieces) {
+  std::vector<std::filesystem::path> files{out};
+  for (std::size_t p = 0; p < n_pieces; ++p) files.push_back(piece_file(out, p));
+  return files;
+}
+
+void require_other_files(const std::vector<std::filesystem::path>& read,
+                         const std::vector<std::filesystem::path>& written,
+                         const std::string& what) {
+  std::set<std::filesystem::path> known;
+  for (const auto& file : read) known.insert(std::filesystem::weakly_canonical(file));
+  for (const auto& file : written)
+    if (known.contains(std::filesystem::weakly_canonical(file)))
+      throw InputError(what + " would replace " + file.string() +
+                       ", a file of the mesh; give another file name");
 }
 
 void add_global_ids(const char* name, std::vector<std::int64_t> numbers,

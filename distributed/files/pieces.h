@@ -47,14 +47,20 @@ class Pieces {
 
   /// Returns a path for the result, if the user gives none.
   std::filesystem::path default_output() const;
-  /// Throws InputError if `out` cannot be the result or is the mesh itself.
+  /// Throws InputError if `out` cannot be the result or would replace a file of the mesh.
   void require_output(const std::filesystem::path& out) const;
+  /// All files of the mesh, and the files that write() makes.
+  std::vector<std::filesystem::path> input_files() const;
+  std::vector<std::filesystem::path> output_files(const std::filesystem::path& out) const;
   /// Names the files that write() makes, for example "out_1.msh to out_3.msh".
   std::string output_text(const std::filesystem::path& out) const;
 
   /// Returns which files are read, why the first rank alone reads one, and what it has left out,
   /// one sentence each, on the root.
   const std::vector<std::string>& notes() const { return notes_; }
+
+  /// Returns what a file that the first rank wrote cannot hold, on the root, since write().
+  const std::vector<std::string>& losses() const { return losses_; }
 
   const std::vector<std::filesystem::path>& files() const { return files_; }
   /// This rank's pieces are first_piece() .. last_piece() - 1.
@@ -101,7 +107,7 @@ class Pieces {
   /// Numbers of the nodes of each piece of this rank, since read().
   mutable std::vector<std::vector<GlobalIndex>> nodes_;
   mutable std::shared_ptr<FileBlocks> blocks_;  ///< of a file that is read in blocks
-  mutable std::vector<std::string> notes_;
+  mutable std::vector<std::string> notes_, losses_;
 };
 
 /// Returns the numbers of a piece's cells in the whole mesh; empty if the file has none.
@@ -117,5 +123,12 @@ void add_global_ids(const char* name, std::vector<std::int64_t> numbers,
 
 /// Returns where a piece of out.pvtu lies: out/out_0007.vtu.
 std::filesystem::path piece_file(const std::filesystem::path& out, std::size_t piece);
+/// Returns out.pvtu and its pieces.
+std::vector<std::filesystem::path> files_of_list(const std::filesystem::path& out,
+                                                 std::size_t n_pieces);
+/// Throws InputError if a file would be written that the mesh has. what: is written.
+void require_other_files(const std::vector<std::filesystem::path>& of_mesh,
+                         const std::vector<std::filesystem::path>& written,
+                         const std::string& what = "the result");
 
 }  // namespace smoothfem

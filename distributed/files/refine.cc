@@ -391,15 +391,7 @@ RefinedPieces refine_pieces(const Ranks& ranks, const std::filesystem::path& in,
   const Pieces pieces(ranks, in);
   ranks.together([&] {
     if (!ranks.is_root()) return;
-    std::error_code ignored;
-    if (std::filesystem::equivalent(in, out, ignored))
-      throw InputError(out.string() + " is the mesh itself; give another file name");
-    std::set<std::filesystem::path> read;
-    for (const auto& file : pieces.files()) read.insert(std::filesystem::weakly_canonical(file));
-    for (std::size_t p = 0; p < pieces.files().size(); ++p)
-      if (read.contains(std::filesystem::weakly_canonical(piece_file(out, p))))
-        throw InputError(out.string() + " would replace " + piece_file(out, p).string() +
-                         ", a piece of the mesh; give another file name");
+    require_other_files(pieces.input_files(), files_of_list(out, pieces.files().size()));
   });
   auto mesh = std::make_unique<std::variant<ScatteredMesh<2>, ScatteredMesh<3>>>(pieces.read());
   return std::visit(

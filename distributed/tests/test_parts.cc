@@ -433,6 +433,35 @@ TEST(Parts, PartitionsStayInFilesReadInBlocks) {
   });
 }
 
+/// Also by the ranks that do not read it: they would wait for the one that does.
+TEST(Parts, CoordinatesThatAreNoNumbersAreRefusedOnAllRanks) {
+  const Folder folder;
+  auto mesh = box_mesh(4, 3, 2, BoxCells::tetrahedra);
+  mesh.coordinates()[7].y() = std::numeric_limits<double>::quiet_NaN();
+  all_ranks().on_root([&] {
+    write_mesh(piece_file(folder / "pieces.pvtu", 0), mesh);
+    write_piece_list(folder / "pieces.pvtu", 1);
+    write_mesh(folder / "blocks.msh", mesh, {}, {.binary = true});
+    write_mesh(folder / "blocks.vtu", mesh);
+  });
+  for (const char* name : {"pieces.pvtu", "blocks.msh", "blocks.vtu"})
+    EXPECT_THAT([&] { Pieces(all_ranks(), folder / name).read(); },
+                ThrowsMessage<InputError>(HasSubstr("not a finite number")));
+}
+
+TEST(Parts, FilesOfTheMeshAreNotReplaced) {
+  const Folder folder;
+  all_ranks().on_root([&] {
+    write_in_pieces(box_mesh(4, 3, 2, BoxCells::tetrahedra), 2, folder / "pieces.pvtu");
+    fs::copy(folder / "pieces.pvtu", folder / "list.pvtu");  // of the same pieces
+  });
+  const Pieces pieces(all_ranks(), folder / "list.pvtu");
+  for (const char* name : {"pieces.pvtu", "list.pvtu"})
+    EXPECT_THAT([&] { pieces.require_output(folder / name); },
+                ThrowsMessage<InputError>(HasSubstr("would replace")));
+  pieces.require_output(folder / "other.pvtu");
+}
+
 TEST(Parts, DamagedBlocksAreRefusedOnAllRanks) {
   const Folder folder;
   const auto mesh = numbered_mesh();

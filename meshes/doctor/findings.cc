@@ -17,7 +17,7 @@ FaultText text_of(FindingKind kind, std::size_t count, int dim, bool planar) {
       return {count_of(count, "cell") + (is_one ? " lists its" : " list their") +
                   " nodes in the wrong direction, which is the only fault",
               "'smoothfem repair' turns such cells over, and so do all commands that read the "
-              "file"};
+              "file without mpirun"};
     case FindingKind::one_sided:
       return {"a piece of the mesh has no upper side, like a Moebius strip",
               "cut it in the mesh generator"};

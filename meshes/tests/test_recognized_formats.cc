@@ -145,7 +145,7 @@ TEST_F(RecognizedFormats, BothEncodingsOfVtkKeepEveryBit) {
 class Pieces : public RecognizedFormats {
  protected:
   /// The unit square from x, with a number of its cell and, if it is a ghost, its mark.
-  std::string piece(int x, int number, bool is_ghost_too = false) {
+  std::string piece(int x, int number, bool is_ghost_too = false, const std::string& ids = "") {
     const std::string a = std::to_string(x), b = std::to_string(x + 1), c = std::to_string(x + 2);
     const auto array = [](const std::string& name, const std::string& type, int n,
                           const std::string& values) {
@@ -164,8 +164,11 @@ class Pieces : public RecognizedFormats {
            array("offsets", "Int32", 1, is_ghost_too ? "4 8" : "4") +
            array("types", "UInt8", 1, is_ghost_too ? "9 9" : "9") + "</Cells><CellData>" +
            array("n", "Int32", 1, std::to_string(number) + (is_ghost_too ? " 99" : "")) +
-           array("vtkGhostType", "UInt8", 1, is_ghost_too ? "0 1" : "0") +
-           "</CellData></Piece></UnstructuredGrid></VTKFile>\n";
+           array("vtkGhostType", "UInt8", 1, is_ghost_too ? "0 1" : "0") + "</CellData>" +
+           (ids.empty() ? ""
+                        : "<PointData GlobalIds=\"ids\">" + array("ids", "Int64", 1, ids) +
+                              "</PointData>") +
+           "</Piece></UnstructuredGrid></VTKFile>\n";
   }
   std::string list(const std::vector<std::string>& names) {
     std::string text = "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>\n";
@@ -173,6 +176,18 @@ class Pieces : public RecognizedFormats {
     return text + "</PUnstructuredGrid></VTKFile>\n";
   }
 };
+
+/// Of the nodes that the numbers join, one has another place: it stays apart.
+TEST_F(Pieces, AreJoinedByTheNumbersOfTheirNodes) {
+  file_with("a_0.vtu", piece(0, 10, false, "0 1 4 3"));
+  file_with("a_1.vtu", piece(1, 11, false, "1 2 5 4"));
+  file_with("a_2.vtu", piece(2, 12, false, "2 9 8 0"));
+  const MeshFile read = read_mesh(file_with("a.pvtu", list({"a_0.vtu", "a_1.vtu", "a_2.vtu"})));
+  EXPECT_EQ(topology(read).n_nodes(), 9u);
+  EXPECT_EQ(topology(read).boundary_facets().size(), 10u);
+  EXPECT_THAT(read.notes, ::testing::Contains(HasSubstr("3 nodes are those of earlier pieces")));
+  EXPECT_THAT(std::get<PlanarMesh>(read.mesh).coordinates()[4], Point<2>(2.0, 0.0));
+}
 
 TEST_F(Pieces, ArePutTogetherWithoutGhosts) {
   file_with("a_0.vtu", piece(0, 10, true));

@@ -189,8 +189,9 @@ class SmoothingRun {
   void refuse_invalid() {
     if (state_.mesh.topology().part() == nullptr) require_valid(in_original_order());
     throw InputError(std::to_string(quality_.n_invalid) +
-                     " cells of the mesh are invalid; 'smoothfem check' names them, and "
-                     "'smoothfem smooth --untangle' repairs them, both without mpirun");
+                     " cells of the mesh are invalid; 'smoothfem check' names them; without "
+                     "mpirun, 'smoothfem repair' turns over cells that run backwards, and "
+                     "'smoothfem smooth --untangle' repairs others");
   }
 
   /// Reorders large meshes. Small meshes fit the cache in any order, and without reordering keep

@@ -9,6 +9,7 @@
 
 #include "smoothing/mesh/boundary_tags.h"
 #include "smoothing/mesh/interfaces.h"
+#include "smoothing/parts/mesh_part.h"
 
 namespace smoothfem {
 
@@ -134,11 +135,16 @@ bool any_node_has(const Topology& topology, FixedReasons reasons) {
 }
 
 std::array<std::size_t, fixed_reasons.size()> count_fixed_reasons(const Topology& topology) {
-  std::array<std::size_t, fixed_reasons.size()> counts{};
-  for (const FixedReasons of_node : topology.fixed_reasons())
-    for (std::size_t r = 0; r < counts.size(); ++r)
-      counts[r] += has(of_node, fixed_reasons[r].reason);
-  return counts;
+  const MeshPart* const part = topology.part();
+  std::array<std::int64_t, fixed_reasons.size()> counts{};
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
+    if (!part || part->owns_node(i))
+      for (std::size_t r = 0; r < counts.size(); ++r)
+        counts[r] += has(topology.fixed_reasons(i), fixed_reasons[r].reason);
+  if (part) part->sum(counts);
+  std::array<std::size_t, fixed_reasons.size()> result;
+  std::copy(counts.begin(), counts.end(), result.begin());
+  return result;
 }
 
 std::size_t n_midside_nodes(const Topology& topology) {
@@ -146,9 +152,11 @@ std::size_t n_midside_nodes(const Topology& topology) {
 }
 
 std::size_t n_fixed_nodes(const Topology& topology) {
+  const MeshPart* const part = topology.part();
   std::size_t n = 0;
-  for (NodeIndex i = 0; i < topology.n_nodes(); ++i) n += topology.reasons_to_stay(i) != 0;
-  return n;
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
+    n += topology.reasons_to_stay(i) != 0 && (!part || part->owns_node(i));
+  return part ? part->sum(n) : n;
 }
 
 std::string fixed_reasons_text(const Topology& topology) {

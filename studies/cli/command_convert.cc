@@ -28,6 +28,12 @@ bool is_in_pieces(const std::string& path) {
   return std::filesystem::path(path).extension() == ".pvtu";
 }
 
+/// Throws on all processes; the first one says why.
+[[noreturn]] void refuse(const std::string& why) {
+  if (!is_first_process()) throw ExitCode{2};
+  throw InputError(why);
+}
+
 void refine_in_pieces(const ConvertArguments& a) {
   const std::pair<bool, const char*> given[]{{a.n_pieces.has_value(), "--pieces"},
                                              {!a.tag_field.empty(), "--tag-field"},
@@ -35,11 +41,9 @@ void refine_in_pieces(const ConvertArguments& a) {
                                              {!a.to.empty(), "--to"},
                                              {a.keep_orientation, "--keep-orientation"}};
   for (const auto& [is_given, option] : given)
-    if (is_given && !is_first_process())
-      throw ExitCode{2};  // the first one says why
-    else if (is_given)
-      throw InputError(std::string(option) +
-                       " does not work with --refine on a mesh in pieces; leave it out");
+    if (is_given)
+      refuse(std::string(option) +
+             " does not work with --refine on a mesh in pieces; leave it out");
   refine_pieces(a.in, a.out, a.quiet);
 }
 
@@ -60,14 +64,18 @@ AnyMesh refined_mesh(const std::string& path, const MeshFile& file) {
 void convert(ConvertArguments arguments) {
   if (arguments.refine && (is_in_pieces(arguments.in) || is_in_pieces(arguments.out)))
     return refine_in_pieces(arguments);
+  const bool splits = is_in_pieces(arguments.out);
+  if (splits && n_processes() > 1)
+    refuse("one process divides a whole mesh into pieces; leave out mpirun");
   if (!is_first_process()) return;
+  if (arguments.n_pieces && !splits)
+    throw InputError("--pieces is for a .pvtu file, not " + arguments.out + "; leave it out");
   const WriteTarget target = parse_write_target(arguments.to);
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
   const auto output = file_for_standard_output(arguments.out, target.extension);
   if (input) arguments.in = input->path();
   if (output) arguments.out = output->path();
   require_extension(arguments.out, arguments.to, target);
-  const bool splits = is_in_pieces(arguments.out);
   if (splits)
     require_writable_file(arguments.out);
   else
@@ -78,8 +86,8 @@ void convert(ConvertArguments arguments) {
   if (arguments.refine) file.mesh = refined_mesh(arguments.in, file);
   const MeshView mesh(file.mesh);
   if (splits) {
-    split_mesh(file.mesh, arguments.n_pieces.value_or(8), arguments.out);
-    print_losses("piece.vtu", mesh, target.options);
+    split_mesh(file.mesh, arguments.n_pieces.value_or(8), arguments.in, arguments.out);
+    print_losses(arguments.out, mesh, target.options);
   } else {
     write_mesh(arguments.out, mesh, {}, target.options);
     print_losses(arguments.out, mesh, target.options);

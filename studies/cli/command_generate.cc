@@ -63,6 +63,9 @@ void generate(GenerateArguments arguments) {
   if (arguments.out.empty())
     throw InputError("name the mesh to write, for example by '-o " + arguments.domain + ".vtu'");
   if (arguments.domain == "box") {
+    if (arguments.distort_to != 0.0)
+      throw InputError(
+          "--distort-to is for other domains; --displacement moves the nodes of a box");
     arguments.box.out = arguments.out;
     arguments.box.seed = arguments.seed;
     arguments.box.quiet = arguments.quiet;

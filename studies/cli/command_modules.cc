@@ -44,6 +44,10 @@ bool works_in_parts(const std::string& out) {
   return std::filesystem::path(out).extension() == ".pvtu" ||
          std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
 }
+int n_processes() {
+  const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
+  return size == nullptr ? 1 : std::atoi(size);
+}
 bool is_first_process() {
   const char* const rank = std::getenv("OMPI_COMM_WORLD_RANK");
   return rank == nullptr || std::atoi(rank) == 0;
@@ -59,8 +63,9 @@ bool examine_pieces(const std::string& mesh, Examination& seen) {
   call_on_pieces("smoothfem_examine_pieces", mesh, seen, is_first);
   return is_first;
 }
-void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& out) {
-  call_on_pieces("smoothfem_split_mesh", mesh, n_pieces, out);
+void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& in,
+                const std::string& out) {
+  call_on_pieces("smoothfem_split_mesh", mesh, n_pieces, in, out);
 }
 void refine_pieces(const std::string& in, const std::string& out, bool quiet) {
   call_on_pieces("smoothfem_refine_pieces", in, out, quiet);

@@ -22,6 +22,7 @@
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
+#include "smoothing/mesh/fixed_nodes.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/configured_method.h"
 #include "studies/cli/iteration_log.h"
@@ -94,7 +95,9 @@ void refuse_options(const SmoothArguments& a) {
                                              {a.only_below.has_value(), "--only-below"},
                                              {a.keep_layers.has_value(), "--keep-layers"},
                                              {a.untangle, "--untangle"},
-                                             {a.merge, "--merge"}};
+                                             {a.merge, "--merge"},
+                                             {a.feature_angle.has_value(), "--feature-angle"},
+                                             {a.slide_distance.has_value(), "--slide-distance"}};
   for (const auto& [is_given, option] : given)
     if (is_given)
       throw InputError(std::string(option) +
@@ -179,7 +182,9 @@ class PartsLog {
     }
     ranks_.together([&] {
       if (!log_) return;
-      if (is_check && row.solved) require_same(*row.solved);
+      if (record.record == 0 && !is_known && log_->has_rows_left())
+        refuse_log("another mesh, method or version");
+      if (is_check && row.solved) require_same(row);
       if (is_known)
         log_->keep();
       else
@@ -205,16 +210,22 @@ class PartsLog {
   }
 
  private:
-  /// Throws InputError if the log has other errors of the initial mesh.
-  void require_same(const SolutionRecord& solved) const {
+  [[noreturn]] void refuse_log(const std::string& of_what) const {
+    throw InputError(arguments_.log + " has rows of " + of_what +
+                     "; leave --resume out, or give another file name");
+  }
+
+  /// Throws InputError if the log has other errors of the initial mesh, or other columns of it.
+  void require_same(const IterationRow& row) const {
     constexpr double tolerance = 1e-3;  // CG stops early, and elsewhere on other numbers of ranks
-    for (const auto& [column, error] :
-         {std::pair{"l2_error", solved.l2_error}, {"h1_error", solved.h1_error}}) {
+    for (const auto& [column, error] : {std::pair{"l2_error", row.solved->l2_error},
+                                        std::pair{"h1_error", row.solved->h1_error}}) {
       const auto earlier = log_->number_of_next(column);
       if (!earlier || !(std::abs(*earlier - error) <= tolerance * error))
-        throw InputError(arguments_.log + " has rows of another problem: its " + column +
-                         " of the initial mesh differs; leave --resume out, or give another file");
+        refuse_log("another problem: its " + std::string(column) + " of the initial mesh differs");
     }
+    if (!log_->fills_columns_of_next(row))
+      refuse_log("other finite elements: its columns for the initial mesh differ");
   }
 
   Ranks ranks_;
@@ -233,7 +244,7 @@ struct SmoothedParts {
   std::string title;
   MeshQuality before;
   SmoothingResult result;
-  std::string of_log;          ///< to print
+  std::string of_log, fixed;   ///< to print
   double distributed_seconds;  ///< until then
 };
 
@@ -247,6 +258,7 @@ SmoothedParts<dim> smoothed(const Ranks& ranks, const SmoothArguments& arguments
   const std::string parts = parts_text(ranks, mesh);
   if (ranks.is_root() && !arguments.quiet) std::printf("%s\n", parts.c_str());
   const MeshQuality before = mesh_quality(mesh.part);
+  std::string fixed = fixed_reasons_text(mesh.part.topology());
   std::optional<PartsLog<dim>> log;
   Observer<dim> observer;
   if (!arguments.log.empty()) {
@@ -266,6 +278,7 @@ SmoothedParts<dim> smoothed(const Ranks& ranks, const SmoothArguments& arguments
           before,
           std::move(result),
           log && ranks.is_root() ? log->text() : "",
+          std::move(fixed),
           distributed_seconds};
 }
 
@@ -274,13 +287,14 @@ void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pi
                   ScatteredMesh<dim> scattered, const Clock& clock) {
   const double read_seconds = clock.seconds();
   if (ranks.is_root()) print_notes(arguments.in, pieces.notes());
-  const auto [directory, title, before, result, of_log, distributed_seconds] =
+  const auto [directory, title, before, result, of_log, fixed, distributed_seconds] =
       smoothed(ranks, arguments, std::move(scattered), clock);
   const double smoothed_seconds = clock.seconds();
   pieces.write<dim>(arguments.out, directory);
   const double peak = ranks.max(peak_bytes());
   const double seconds = ranks.max(result.smoothing_seconds);
   if (!ranks.is_root()) return;
+  print_losses(arguments.out, pieces.losses());
   if (result.quality.n_invalid > 0)
     std::fprintf(stderr, "smoothfem: warning: %s: %zu cells are invalid\n", arguments.out.c_str(),
                  result.quality.n_invalid);
@@ -298,6 +312,7 @@ void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pi
       pieces.output_text(arguments.out).c_str(), of_log.c_str(), read_seconds,
       distributed_seconds - read_seconds, smoothed_seconds - distributed_seconds,
       clock.seconds() - smoothed_seconds, peak / (1024.0 * 1024.0 * 1024.0));
+  if (!fixed.empty()) std::printf("%s\n", fixed.c_str());
 }
 
 std::vector<std::size_t> counts_of(const std::string& text) {
@@ -331,7 +346,10 @@ void smoothfem_smooth_pieces(const smoothfem::SmoothArguments& arguments) {
       pieces.require_output(all.out);
       if (!ranks.is_root()) return;
       require_writable_file(all.out);
-      if (!all.log.empty()) require_writable_file(all.log);
+      if (all.log.empty()) return;
+      for (const auto& files : {pieces.input_files(), pieces.output_files(all.out)})
+        require_other_files(files, {all.log}, "--log");
+      require_writable_file(all.log);
     });
     share_cores(all.n_threads);
     std::visit(
@@ -435,9 +453,11 @@ void smoothfem_refine_pieces(const std::string& in, const std::string& out, cons
 }
 
 void smoothfem_split_mesh(const smoothfem::AnyMesh& mesh, const std::size_t& n_pieces,
-                          const std::string& out) {
+                          const std::string& in, const std::string& out) {
   using namespace smoothfem;
   const MpiSession session;
+  require_other_files(Pieces(Ranks(MPI_COMM_WORLD), in).input_files(),
+                      files_of_list(out, n_pieces));
   std::visit(
       [&]<int dim, int spacedim>(const Mesh<dim, spacedim>& of_kind) {
         if constexpr (dim == spacedim)

@@ -292,11 +292,11 @@ void report(const QualityArguments& arguments, const Mesh<dim, spacedim>& mesh,
 
 void report_quality(QualityArguments arguments) {
   if (works_in_parts("")) {
-    if (!arguments.histogram.empty() || !arguments.mark.empty() || !arguments.metrics.empty())
+    if (!arguments.histogram.empty() || !arguments.mark.empty() || !arguments.metrics.empty() ||
+        arguments.below > 0.0 || !arguments.from.empty())
       throw InputError(
-          "--histogram, --mark and --metrics do not work on a mesh in parts; leave them out, or "
-          "use "
-          "one file without mpirun");
+          "--histogram, --mark, --below, --metrics and --from do not work on a mesh in parts; "
+          "leave them out, or use one file without mpirun");
     return report_pieces(arguments.in, arguments.json);
   }
   if (!arguments.histogram.empty()) require_histogram_path(arguments.histogram);

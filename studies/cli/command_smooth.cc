@@ -333,7 +333,7 @@ void add_smooth_command(CLI::App& app) {
       ->add_flag("--resume", arguments->resume,
                  "on a mesh in parts: keep the rows that --log has from an interrupted run of this "
                  "command, and solve only after them")
-      ->needs(log);
+      ->needs(solution);
   command->add_option("--series", arguments->series, "VTU series (.pvd) with every iteration");
   command
       ->add_option(

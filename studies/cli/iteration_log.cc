@@ -61,8 +61,7 @@ IterationLog::IterationLog(std::filesystem::path path, bool resumes) : path_(std
 }
 
 bool IterationLog::has(const IterationRow& row) const {
-  return rows_.size() < earlier_.size() &&
-         lasting_fields(line_of(row)) == lasting_fields(earlier_[rows_.size()]);
+  return has_rows_left() && lasting_fields(line_of(row)) == lasting_fields(earlier_[rows_.size()]);
 }
 
 void IterationLog::keep() {
@@ -76,7 +75,7 @@ void IterationLog::add(const IterationRow& row) {
 }
 
 void IterationLog::finish() {
-  if (rows_.size() < earlier_.size() && n_kept_ == rows_.size()) write();
+  if (has_rows_left() && n_kept_ == rows_.size()) write();
 }
 
 void IterationLog::write() const {
@@ -85,8 +84,19 @@ void IterationLog::write() const {
   write_atomically(path_, text);
 }
 
+bool IterationLog::has_rows_left() const {
+  return rows_.size() < earlier_.size();
+}
+
+bool IterationLog::fills_columns_of_next(const IterationRow& row) const {
+  if (!has_rows_left()) return false;
+  const auto given = csv_fields(line_of(row)), earlier = csv_fields(earlier_[rows_.size()]);
+  return std::equal(given.begin(), given.end(), earlier.begin(), earlier.end(),
+                    [](const auto& a, const auto& b) { return a.empty() == b.empty(); });
+}
+
 std::optional<double> IterationLog::number_of_next(const std::string& column) const {
-  if (rows_.size() >= earlier_.size()) return {};
+  if (!has_rows_left()) return {};
   const std::string field = csv_fields(earlier_[rows_.size()])[place_of(column)];
   if (field.empty()) return {};
   return std::strtod(field.c_str(), nullptr);

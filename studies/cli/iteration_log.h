@@ -21,6 +21,10 @@ class IterationLog {
   /// True if the file has the next row already: of the same iteration, with the same quality, and
   /// with the same solver (Poisson's or none).
   bool has(const IterationRow& row) const;
+  /// True if the file has a next row.
+  bool has_rows_left() const;
+  /// True if the file's next row has numbers where this one has, and only there.
+  bool fills_columns_of_next(const IterationRow& row) const;
   /// Takes that row as it is.
   void keep();
   /// Adds a row in the place of the next one and all after it, and writes the file. Throws

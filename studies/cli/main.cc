@@ -68,7 +68,8 @@ int run(int argc, char** argv) {
   } catch (const ExitCode& exit) {
     return exit.code;
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "smoothfem: %s\n", parse_message(app, error, argc, argv).c_str());
+    if (is_first_process())
+      std::fprintf(stderr, "smoothfem: %s\n", parse_message(app, error, argc, argv).c_str());
     return exit_bad_input;
   }
   return 0;
@@ -91,7 +92,8 @@ int main(int argc, char** argv) {
     smoothfem::flush_stdout_or_throw();
     return exit_code;
   } catch (const smoothfem::InputError& error) {
-    std::fprintf(stderr, "smoothfem: %s\n", error.what());
+    // Processes of mpirun have the same words.
+    if (smoothfem::is_first_process()) std::fprintf(stderr, "smoothfem: %s\n", error.what());
     return smoothfem::exit_bad_input;
   } catch (const smoothfem::Interrupted&) {
     return 130;  // as of a process that SIGINT has ended

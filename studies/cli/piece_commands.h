@@ -30,6 +30,8 @@ struct BoxArguments {
 /// pieces are read as one mesh. out: the mesh to write; may be empty.
 bool works_in_parts(const std::string& out);
 
+/// Number of processes that mpirun has started; 1 without it.
+int n_processes();
 /// False for all processes of mpirun but one.
 bool is_first_process();
 
@@ -39,8 +41,9 @@ void generate_box(const BoxArguments& arguments);
 /// Examines a mesh in parts (distributed/examine_parts.h). False for all processes but one, which
 /// has the result.
 bool examine_pieces(const std::string& mesh, Examination& seen);
-/// Writes a whole mesh in pieces (distributed/files/split.h).
-void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& out);
+/// Writes a whole mesh, which a file has, in pieces (distributed/files/split.h).
+void split_mesh(const AnyMesh& mesh, std::size_t n_pieces, const std::string& in,
+                const std::string& out);
 /// Splits the cells of a mesh in pieces (distributed/files/refine.h).
 void refine_pieces(const std::string& in, const std::string& out, bool quiet);
 
@@ -54,7 +57,7 @@ void smoothfem_examine_pieces(const std::string& mesh, smoothfem::Examination& s
                               bool& is_first);
 void smoothfem_generate_box(const smoothfem::BoxArguments& arguments);
 void smoothfem_split_mesh(const smoothfem::AnyMesh& mesh, const std::size_t& n_pieces,
-                          const std::string& out);
+                          const std::string& in, const std::string& out);
 void smoothfem_refine_pieces(const std::string& in, const std::string& out, const bool& quiet);
 /// A function of the module of studies: reads --finite-elements.
 void smoothfem_read_finite_elements(const std::vector<std::string>& settings,

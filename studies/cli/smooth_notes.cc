@@ -26,7 +26,11 @@ std::string rounded(double value, int digits) {
 
 void print_losses(const std::filesystem::path& path, const MeshView& mesh,
                   const MeshWriteOptions& options) {
-  const auto lost = losses(path, mesh, options);
+  const bool is_list = path.extension() == ".pvtu";
+  print_losses(path, losses(is_list ? "piece.vtu" : path, mesh, options));
+}
+
+void print_losses(const std::filesystem::path& path, const std::vector<std::string>& lost) {
   if (!lost.empty())
     print_notes(path.string(), {"the file cannot hold, and leaves out: " + joined(lost)});
 }

@@ -15,6 +15,7 @@ namespace smoothfem {
 /// Prints one note that names what a file of this name cannot hold, if anything.
 void print_losses(const std::filesystem::path& path, const MeshView& mesh,
                   const MeshWriteOptions& options);
+void print_losses(const std::filesystem::path& path, const std::vector<std::string>& lost);
 
 /// Prints one note that names what a refined mesh does not have, if anything.
 void print_left_out(const std::filesystem::path& path, const std::vector<std::string>& losses);

@@ -79,6 +79,22 @@ TEST_F(CommandLine, MeshesAreRefined) {
   EXPECT_EQ(read_planar(file("finer.vtu")).mesh.topology().free_nodes().size(), 25u);
 }
 
+TEST_F(CommandLine, OneProcessDividesAMesh) {
+  write_mesh(file("in.vtu"), shaken_grid(3, 0.2));
+  const Outcome several = smoothfem_on_ranks(2, {"convert", "in.vtu", "out.pvtu"});
+  EXPECT_EQ(several.exit_code, 2);
+  EXPECT_THAT(several.err, HasSubstr("leave out mpirun"));
+  EXPECT_FALSE(std::filesystem::exists(file("out.pvtu")));
+  ASSERT_EQ(smoothfem({"convert", "in.vtu", "out.pvtu", "--pieces", "3"}).exit_code, 0);
+  std::filesystem::copy(file("out.pvtu"), file("list.pvtu"));
+  const Outcome replaced = smoothfem({"convert", "list.pvtu", "out.pvtu", "--pieces", "2"});
+  EXPECT_EQ(replaced.exit_code, 2);
+  EXPECT_THAT(replaced.err, HasSubstr("would replace"));
+  const Outcome joined = smoothfem({"convert", "list.pvtu", "two.pvtu", "--pieces", "2"});
+  EXPECT_THAT(joined.out, HasSubstr("16 nodes, 9 cells"));
+  EXPECT_EQ(smoothfem({"convert", "in.vtu", "out.vtk", "--pieces", "2"}).exit_code, 2);
+}
+
 TEST_F(CommandLine, RefinementSaysWhatToDo) {
   write_mesh(file("whole.vtu"), shaken_grid(3, 0.2));
   const auto refused = [&](std::vector<std::string> words) {

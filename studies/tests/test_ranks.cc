@@ -113,6 +113,12 @@ TEST_F(SmallResume, RecordsOfMeshesInPartsGoOnAfterAnInterruption) {
   EXPECT_EQ(rows_of_log(content_of(file("two.csv"))), two);
   file_with("two.csv", kept);
   EXPECT_EQ(on(1, "two.csv", "gear", {"--resume"}), 2);
+  EXPECT_EQ(on(1, "two.csv", "sine", {"--resume", "--finite-elements", "multigrid cg=always"}), 2);
+  std::string of_other = kept;
+  of_other.replace(of_other.find("smart-laplace"), 13, "laplace");
+  file_with("other.csv", of_other);
+  EXPECT_EQ(on(1, "other.csv", "sine", {"--resume"}), 2);
+  EXPECT_EQ(content_of(file("other.csv")), of_other);
   EXPECT_EQ(content_of(file("two.csv")), kept);
   EXPECT_EQ(on(1, "two.csv", "sine", {"--finite-elements", "cg tolerance=2"}), 2);
   EXPECT_EQ(on(1, "two.csv", "none"), 2);

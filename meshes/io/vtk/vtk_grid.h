@@ -108,5 +108,11 @@ inline constexpr std::array<VtkRole, 9> vtk_roles{{{"scalars", "Scalars", 0},
                                                    {"global_ids", "GlobalIds", 1},
                                                    {"pedigree_ids", "PedigreeIds", 1},
                                                    {"edge_flags", "EdgeFlag", 1}}};
+/// The role of numbers in the whole mesh.
+inline constexpr const char* global_ids_role = "GlobalIds";
+
+/// Returns the values of the field with that role; null if there is no such field of integers.
+const std::vector<std::int64_t>* global_ids(const std::map<std::string, std::string>& roles,
+                                            const std::vector<MeshField>& fields);
 
 }  // namespace smoothfem

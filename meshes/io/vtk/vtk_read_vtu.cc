@@ -261,7 +261,38 @@ MeshParts vtu_parts(const std::filesystem::path& path, VtkGrid grid,
   return parts;
 }
 
+/// Makes nodes of one number and one place one, which several pieces have. Returns a text on them.
+std::string join_pieces(MeshParts& parts) {
+  const auto* const global = global_ids(parts.content.node_roles, parts.content.node_fields);
+  if (!global && parts.node_ids.empty())
+    return "; the pieces have no numbers of nodes, so that nodes between them are several";
+  std::map<std::int64_t, NodeIndex> first_of;
+  std::vector<NodeIndex> first(parts.coordinates.size());
+  std::size_t n_joined = 0;
+  for (NodeIndex i = 0; i < first.size(); ++i) {
+    first[i] = i;
+    if (!global && parts.node_ids[i] == 0) continue;  // it has no number
+    const std::int64_t number =
+        global ? (*global)[i] : static_cast<std::int64_t>(parts.node_ids[i]);
+    const NodeIndex earlier = first_of.try_emplace(number, i).first->second;
+    if (parts.coordinates[earlier] != parts.coordinates[i]) continue;
+    first[i] = earlier;
+    n_joined += earlier != i;
+  }
+  renumber_nodes(parts, first);
+  return "; by their numbers, " + std::to_string(n_joined) + " nodes are those of earlier pieces";
+}
+
 }  // namespace
+
+const std::vector<std::int64_t>* global_ids(const std::map<std::string, std::string>& roles,
+                                            const std::vector<MeshField>& fields) {
+  const auto name = roles.find(global_ids_role);
+  if (name == roles.end()) return nullptr;
+  for (const MeshField& field : fields)
+    if (field.name == name->second) return std::get_if<std::vector<std::int64_t>>(&field.values);
+  return nullptr;
+}
 
 std::vector<std::filesystem::path> files_of_pvtu(const std::filesystem::path& path) {
   const std::string content = read_whole_file(path);
@@ -290,8 +321,9 @@ MeshParts read_vtu(const std::filesystem::path& path, const MeshReadOptions& opt
 MeshParts read_pvtu(const std::filesystem::path& path, const MeshReadOptions& options) {
   const auto files = files_of_pvtu(path);
   auto parts = vtu_parts(path, grid_of_files(files), options);
-  parts.notes.push_back("the mesh has " + std::to_string(files.size()) +
-                        (files.size() == 1 ? " piece" : " pieces, which are read as one mesh"));
+  if (files.size() > 1)
+    parts.notes.push_back("the mesh has " + std::to_string(files.size()) +
+                          " pieces, which are read as one mesh" + join_pieces(parts));
   return parts;
 }
 
