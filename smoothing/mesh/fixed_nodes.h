@@ -39,8 +39,8 @@ bool any_node_has(const Topology& topology, FixedReasons reasons);
 
 /// Returns the number of nodes that follow their corners (midside_nodes.h).
 std::size_t n_midside_nodes(const Topology& topology);
-/// Returns the number of nodes that stay. This function and those below count the nodes of the whole
-/// mesh; in a part they are collective.
+/// Returns the number of nodes that stay. This function and those below count the nodes of the
+/// whole mesh; in a part they are collective.
 std::size_t n_fixed_nodes(const Topology& topology);
 
 /// Number of nodes that stay for each reason, in the order of fixed_reasons. Nodes with several

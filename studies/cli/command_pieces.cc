@@ -315,6 +315,11 @@ void smooth_parts(const Ranks& ranks, const SmoothArguments& arguments, const Pi
   if (!fixed.empty()) std::printf("%s\n", fixed.c_str());
 }
 
+void print_pieces(const std::string& out, std::size_t n_cells, std::size_t n_pieces) {
+  std::printf("%s: %zu cells in %zu %s\n", out.c_str(), n_cells, n_pieces,
+              n_pieces == 1 ? "piece" : "pieces");
+}
+
 std::vector<std::size_t> counts_of(const std::string& text) {
   std::vector<std::size_t> counts;
   std::istringstream words(text);
@@ -431,8 +436,7 @@ void smoothfem_generate_box(const smoothfem::BoxArguments& arguments) {
         counts.size() == 3 ? write_box<3>(ranks, parameters, arguments.n_pieces, arguments.out)
                            : write_box<2>(ranks, parameters, arguments.n_pieces, arguments.out);
     if (ranks.is_root() && !arguments.quiet)
-      std::printf("%s: %zu cells in %zu pieces\n", arguments.out.c_str(), n_cells,
-                  std::min(arguments.n_pieces, counts.back()));
+      print_pieces(arguments.out, n_cells, std::min(arguments.n_pieces, counts.back()));
   });
 }
 
@@ -446,9 +450,7 @@ void smoothfem_refine_pieces(const std::string& in, const std::string& out, cons
     const RefinedPieces refined = refine_pieces(ranks, in, out);
     if (!ranks.is_root()) return;
     print_left_out(in, refined.losses);
-    if (!quiet)
-      std::printf("%s: %zu cells in %zu %s\n", out.c_str(), refined.n_cells, refined.n_pieces,
-                  refined.n_pieces == 1 ? "piece" : "pieces");
+    if (!quiet) print_pieces(out, refined.n_cells, refined.n_pieces);
   });
 }
 
