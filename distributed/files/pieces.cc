@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distributed/files/pieces.h"
 
+#include <cstring>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <sstream>
 
@@ -28,7 +30,7 @@ struct ReadPiece {
   std::vector<std::int64_t> cells{};    ///< numbers of its cells; empty if the file has none
   std::vector<Point<3>> points{};
   std::vector<FixedReasons> reasons{};
-  std::vector<std::size_t> node_ids{}, cell_ids{};  ///< of a whole mesh, for an examination
+  std::vector<std::size_t> node_ids{}, cell_ids{};         ///< of a whole mesh, for an examination
   int dim = 0;
   bool has_marks = false;
 };
@@ -86,10 +88,61 @@ std::vector<std::size_t> ids_to_show(std::vector<std::size_t> ids, std::size_t n
   return ids;
 }
 
+/// Numbers of sets of physical groups: a material has one.
+using Materials = std::map<std::vector<int>, int>;
+
+/// Appends the cells of a piece, with node indices that begin at first_node. Adds materials that
+/// are new.
+void append_cells(const MeshParts& parts, int dim, std::size_t first_node, CellTable& table,
+                  Materials& materials) {
+  const ElementList& cells = parts.elements[static_cast<std::size_t>(dim)];
+  std::map<std::pair<int, int>, int> of_labels;
+  std::vector<GlobalIndex> row;
+  for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
+    row.clear();
+    for (const NodeIndex node : cells.nodes[c])
+      row.push_back(static_cast<GlobalIndex>(first_node + node));
+    const std::pair label(cells.entities.empty() ? 0 : cells.entities[c],
+                          cells.tags.empty() ? 0 : cells.tags[c]);
+    const auto [known, is_new] = of_labels.try_emplace(label, 0);
+    if (is_new)
+      known->second =
+          materials
+              .try_emplace(material_groups(&parts.content, dim, label.first, label.second),
+                           static_cast<int>(materials.size()))
+              .first->second;
+    table.append(static_cast<GlobalIndex>(table.size()), known->second, row);
+  }
+}
+
+/// Gives materials the same numbers on all ranks. Collective.
+void number_materials(const Ranks& ranks, const Materials& materials, std::vector<int>& of_cells) {
+  std::vector<int> words;  // for each material the number of its groups, these
+  for (const auto& [groups, number] : materials) {
+    words.push_back(static_cast<int>(groups.size()));
+    words.insert(words.end(), groups.begin(), groups.end());
+  }
+  const auto bytes = ranks.gather_all(std::as_bytes(std::span(words)));
+  std::vector<int> all_words(bytes.size() / sizeof(int));
+  if (!bytes.empty()) std::memcpy(all_words.data(), bytes.data(), bytes.size());
+  Materials all;
+  for (auto word = all_words.begin(); word != all_words.end();) {
+    const auto first = word + 1;
+    word = first + *word;
+    all.try_emplace({first, word}, 0);
+  }
+  int n = 0;
+  for (auto& [groups, number] : all) number = n++;
+  std::vector<int> new_number(materials.size());
+  for (const auto& [groups, number] : materials)
+    new_number[static_cast<std::size_t>(number)] = all.at(groups);
+  for (int& material : of_cells) material = new_number[static_cast<std::size_t>(material)];
+}
+
 /// has_tags: nodes and cells have the numbers of Gmsh. Takes the parts of a piece; appends its
 /// cells with node indices that begin at first_node.
 ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::size_t first_node,
-                     CellTable& table, ReadFor purpose, bool has_tags) {
+                     CellTable& table, Materials& materials, ReadFor purpose, bool has_tags) {
   if (parts.leaves_out_unused_nodes && purpose == ReadFor::smoothing)
     drop_unused_nodes(parts);  // as read_mesh() does
   ReadPiece piece{.dim = dimension_of(parts)};
@@ -101,14 +154,7 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
   const ElementList& cells = parts.elements[static_cast<std::size_t>(piece.dim)];
   if (!cells.midside.empty())
     refuse("a mesh of second order cannot be handled in parts; use one file without mpirun");
-  std::vector<GlobalIndex> row;
-  for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
-    row.clear();
-    for (const NodeIndex node : cells.nodes[c])
-      row.push_back(static_cast<GlobalIndex>(first_node + node));
-    table.append(static_cast<GlobalIndex>(table.size()), cells.tags.empty() ? 0 : cells.tags[c],
-                 row);
-  }
+  append_cells(parts, piece.dim, first_node, table, materials);
   piece.numbers = node_numbers(parts);
   piece.cells = has_tags ? std::vector<std::int64_t>(cells.ids.begin(), cells.ids.end())
                          : cell_numbers(parts);
@@ -365,13 +411,14 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
   }
   std::vector<ReadPiece> pieces;
   CellTable cells;  // corners are positions among the nodes of all pieces
+  Materials materials;
   ranks_.together([&] {
     std::size_t n_nodes = 0;
     for (std::size_t p = first_piece(); p < last_piece(); ++p) {
       MeshParts parts = read_mesh_parts(files_[p]);
       if (kind_ == Kind::whole) notes_.insert(notes_.end(), parts.notes.begin(), parts.notes.end());
-      pieces.push_back(
-          take_piece(files_[p], std::move(parts), n_nodes, cells, purpose, kind_ == Kind::gmsh));
+      pieces.push_back(take_piece(files_[p], std::move(parts), n_nodes, cells, materials, purpose,
+                                  kind_ == Kind::gmsh));
       if (kind_ == Kind::whole) {  // all nodes are here; two of them may lie in one place
         pieces.back().numbers.resize(pieces.back().points.size());
         std::iota(pieces.back().numbers.begin(), pieces.back().numbers.end(), std::int64_t{0});
@@ -385,6 +432,7 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
       }
     }
   });
+  number_materials(ranks_, materials, cells.materials);
   const auto any = [&](const auto& holds) {
     return ranks_.any(std::any_of(pieces.begin(), pieces.end(), holds));
   };
