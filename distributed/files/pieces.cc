@@ -14,6 +14,7 @@
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/io/vtk/vtk_files.h"
+#include "meshes/io/vtk/vtk_grid.h"
 #include "meshes/io/vtk/xml_tags.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/mesh/interfaces.h"
@@ -24,6 +25,15 @@ namespace {
 
 constexpr const char* global_ids_role = "GlobalIds";
 
+/// Arrays of pieces of VTK that decide on a result, and what happens to a piece without one that
+/// others have.
+enum PieceArray { tags_array, node_numbers_array, cell_numbers_array, fixed_array };
+constexpr std::array<std::string_view, 4> without_array{
+    "its cells count as cells of no group",
+    "nodes of all pieces with equal coordinates are joined instead",
+    "the cells of all pieces are numbered in the order of the files instead",
+    "its nodes stay only for the reasons that the mesh gives"};
+
 /// What a rank keeps of one piece until all are read.
 struct ReadPiece {
   std::vector<std::int64_t> numbers{};  ///< of its nodes; empty if the file has none
@@ -31,6 +41,7 @@ struct ReadPiece {
   std::vector<Point<3>> points{};
   std::vector<FixedReasons> reasons{};
   std::vector<std::size_t> node_ids{}, cell_ids{};         ///< of a whole mesh, for an examination
+  std::array<std::string, without_array.size()> arrays{};  ///< their names; empty: there is none
   int dim = 0;
   bool has_marks = false;
 };
@@ -49,6 +60,67 @@ const std::vector<std::int64_t>* global_ids(const std::map<std::string, std::str
 std::vector<std::int64_t> node_numbers(const MeshParts& parts) {
   const auto* ids = global_ids(parts.content.node_roles, parts.content.node_fields);
   return ids ? *ids : std::vector<std::int64_t>(parts.node_ids.begin(), parts.node_ids.end());
+}
+
+/// Returns the names of PieceArrays.
+std::array<std::string, without_array.size()> arrays_of(const MeshParts& parts, int dim) {
+  const FileContent& content = parts.content;
+  std::array<std::string, without_array.size()> names;
+  if (!parts.elements[static_cast<std::size_t>(dim)].tags.empty())
+    names[tags_array] =
+        content.tag_field.empty() ? std::string(vtk_tag_fields.front()) : content.tag_field;
+  if (global_ids(content.node_roles, content.node_fields))
+    names[node_numbers_array] = content.node_roles.at(global_ids_role);
+  else if (!parts.node_ids.empty())
+    names[node_numbers_array] = "node_id";
+  if (global_ids(content.element_roles, content.element_fields))
+    names[cell_numbers_array] = content.element_roles.at(global_ids_role);
+  if (parts.fixed) names[fixed_array] = "fixed";
+  return names;
+}
+
+/// Returns a sentence for each array that some pieces have and others do not. Pieces without nodes
+/// need no arrays. Collective.
+std::vector<std::string> notes_on_arrays(const Ranks& ranks,
+                                         const std::vector<std::filesystem::path>& files,
+                                         const std::vector<ReadPiece>& pieces) {
+  std::string lines;  // of each piece whether it has nodes, and the names
+  for (const ReadPiece& piece : pieces) {
+    lines += piece.points.empty() ? "0\n" : "1\n";
+    for (const std::string& name : piece.arrays) lines += name + "\n";
+  }
+  const auto bytes = ranks.gather_all(std::as_bytes(std::span(lines)));
+  std::istringstream all(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  struct Array {
+    std::string name;
+    std::size_t owner = 0, first_without = 0, n_without = 0;
+  };
+  std::array<Array, without_array.size()> arrays;
+  std::string word;
+  for (std::size_t p = 0; p < files.size() && std::getline(all, word); ++p) {
+    const bool has_nodes = word == "1";
+    for (Array& array : arrays) {
+      std::getline(all, word);
+      if (!word.empty() && array.name.empty()) {
+        array.name = word;
+        array.owner = p;
+      }
+      if (word.empty() && has_nodes && array.n_without++ == 0) array.first_without = p;
+    }
+  }
+  std::vector<std::string> notes;
+  for (std::size_t a = 0; a < arrays.size(); ++a) {
+    const auto& [name, owner, first, n] = arrays[a];
+    if (name.empty() || n == 0) continue;
+    const std::string others = n == 1   ? ""
+                               : n == 2 ? " and another piece"
+                                        : " and " + std::to_string(n - 1) + " other pieces";
+    notes.push_back(files[first].filename().string() + others + (n == 1 ? " has" : " have") +
+                    " no array '" + name + "', but " + files[owner].filename().string() +
+                    " has: " + std::string(without_array[a]) +
+                    "; write the pieces anew, each with the same arrays");
+  }
+  return notes;
 }
 
 /// Adds the reasons to stay that a file says: labelled elements below the cells' dimension, marks,
@@ -155,6 +227,7 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
   if (!cells.midside.empty())
     refuse("a mesh of second order cannot be handled in parts; use one file without mpirun");
   append_cells(parts, piece.dim, first_node, table, materials);
+  piece.arrays = arrays_of(parts, piece.dim);
   piece.numbers = node_numbers(parts);
   piece.cells = has_tags ? std::vector<std::int64_t>(cells.ids.begin(), cells.ids.end())
                          : cell_numbers(parts);
@@ -317,7 +390,10 @@ void write_piece(const std::filesystem::path& path, MeshParts parts,
     points.back().head<dim>() = entry.point();
     fixed.push_back(entry.reasons != 0);
   }
-  write_vtu(out, plain_mesh(std::move(parts), std::move(points), std::move(fixed)));
+  const bool has_tags = !parts.elements[static_cast<std::size_t>(dim)].tags.empty();
+  PlainMesh mesh = plain_mesh(std::move(parts), std::move(points), std::move(fixed));
+  if (has_tags) mesh.labels.cell_tags.resize(mesh.cells.size(), 0);  // pieces keep their arrays
+  write_vtu(out, mesh);
 }
 
 }  // namespace
@@ -433,6 +509,10 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
     }
   });
   number_materials(ranks_, materials, cells.materials);
+  if (kind_ == Kind::vtk) {
+    const auto on_arrays = notes_on_arrays(ranks_, files_, pieces);
+    notes_.insert(notes_.end(), on_arrays.begin(), on_arrays.end());
+  }
   const auto any = [&](const auto& holds) {
     return ranks_.any(std::any_of(pieces.begin(), pieces.end(), holds));
   };
