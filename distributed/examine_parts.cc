@@ -618,7 +618,8 @@ std::vector<std::string> require_conforming_parts(const Ranks& ranks,
   } catch (const InputError& error) {
     throw InputError(path.string() + ": " + error.what());
   }
-  ranks.on_root([&] {
+  ranks.together([&] {
+    if (!ranks.is_root()) return;
     for (const Finding& finding : seen.findings)
       if (std::find(faults.begin(), faults.end(), finding.kind) != faults.end())
         throw InputError(path.string() + ": " + finding.sentence + "; " + purpose +

@@ -266,10 +266,8 @@ TEST(RefinePieces, HangingNodesAreRefused) {
   } catch (const InputError& refused) {
     error = refused.what();
   }
-  EXPECT_NE(error, "");
   EXPECT_FALSE(fs::exists(folder / "out.pvtu"));
   EXPECT_FALSE(fs::exists(piece_file(folder / "out.pvtu", 0)));
-  if (!all_ranks().is_root()) return;
   EXPECT_THAT(error, HasSubstr("in.pvtu: the mesh does not conform: 1 hanging node lies inside"));
   EXPECT_THAT(error, HasSubstr("(1, 0.5"));
   EXPECT_THAT(error, HasSubstr("divide the larger cells"));
