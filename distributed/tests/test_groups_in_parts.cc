@@ -24,14 +24,15 @@ using test::GridCells;
 using testing::HasSubstr;
 
 constexpr const char* method_name = "smart-laplace";
-constexpr NodeIndex middle_of_square = 4, middle_of_cube = 13;
+constexpr NodeIndex middle_of_square = 12, middle_of_cube = 13;
 
-/// A mesh of 2 cells in each direction, whose only inner node is off the middle.
+/// A mesh of 4 x 4 or 2 x 2 x 2 cells, at least one for each of seven processes, whose middle node
+/// is off its place.
 template <int dim>
 Mesh<dim> small_mesh(MeshLabels labels, FileContent content) {
   Mesh<dim> mesh = [] {
     if constexpr (dim == 2)
-      return grid_mesh(2, GridCells::quadrilaterals);
+      return grid_mesh(4, GridCells::quadrilaterals);
     else
       return test::box_mesh(2, 2, 2, test::BoxCells::hexahedra);
   }();
@@ -49,7 +50,7 @@ Mesh<dim> small_mesh(MeshLabels labels, FileContent content) {
 PlanarMesh two_halves(const std::vector<int>& left, const std::vector<int>& right) {
   MeshLabels labels;
   FileContent content;
-  for (const int side : {0, 1, 0, 1}) {
+  for (const int side : {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1}) {
     content.cell_entities.push_back(1 + side);
     labels.cell_tags.push_back(side == 0 ? left.front() : right.front());
   }
@@ -130,7 +131,7 @@ TEST(GroupsInParts, InterfacesBetweenOverlappingGroupsStay) {
 }
 
 TEST(GroupsInParts, InnerElementsOfSeveralGroupsStay) {
-  expect_same_in_parts(with_inner_facet<2>({1, middle_of_square}), false);
+  expect_same_in_parts(with_inner_facet<2>({7, middle_of_square}), false);
   expect_same_in_parts(with_inner_facet<3>({4, 5, 14, middle_of_cube}), false);
   expect_same_in_parts(with_inner_element({4, middle_of_cube}), false);
   expect_same_in_parts(with_inner_element({middle_of_cube}), false);
