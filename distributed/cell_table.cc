@@ -14,7 +14,7 @@ void sort_by_numbers(CellTable& table) {
             [&](auto a, auto b) { return table.numbers[a] < table.numbers[b]; });
   CellTable sorted;
   sorted.reserve(table.size(), table.corners.size());
-  for (const std::uint32_t c : order) sorted.append(table.numbers[c], table.tags[c], table[c]);
+  for (const std::uint32_t c : order) sorted.append(table.numbers[c], table.materials[c], table[c]);
   table = std::move(sorted);
 }
 
@@ -25,7 +25,7 @@ std::vector<std::uint8_t> merge_into(CellTable& table, const CellTable& others) 
   require_countable(end);
   std::vector<std::uint8_t> was_there(n, 1);
   table.numbers.resize(n);
-  table.tags.resize(n);
+  table.materials.resize(n);
   table.offsets.resize(n + 1);
   table.corners.resize(end);
   // From the last cell to the first, so that nothing is overwritten before it is moved.
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> merge_into(CellTable& table, const CellTable& others) 
     std::copy_backward(first, first + static_cast<std::ptrdiff_t>(size),
                        table.corners.begin() + static_cast<std::ptrdiff_t>(end));
     table.numbers[c] = from.numbers[at];
-    table.tags[c] = from.tags[at];
+    table.materials[c] = from.materials[at];
     table.offsets[c + 1] = static_cast<RowOffset>(end);
     was_there[c] = !is_other;
     end -= size;

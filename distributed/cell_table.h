@@ -16,7 +16,7 @@ struct CellTable {
   std::vector<GlobalIndex> numbers{};  ///< ascending
   std::vector<RowOffset> offsets{0};   ///< as in CompressedRows
   std::vector<GlobalIndex> corners{};
-  std::vector<int> tags{};
+  std::vector<int> materials{};  ///< equal numbers: cells of the same physical groups
 
   std::size_t size() const { return numbers.size(); }
   std::span<const GlobalIndex> operator[](std::size_t c) const {
@@ -24,13 +24,13 @@ struct CellTable {
   }
   void reserve(std::size_t n_cells, std::size_t n_corners) {
     numbers.reserve(n_cells);
-    tags.reserve(n_cells);
+    materials.reserve(n_cells);
     offsets.reserve(n_cells + 1);
     corners.reserve(n_corners);
   }
-  void append(GlobalIndex number, int tag, std::span<const GlobalIndex> corners_of_cell) {
+  void append(GlobalIndex number, int material, std::span<const GlobalIndex> corners_of_cell) {
     numbers.push_back(number);
-    tags.push_back(tag);
+    materials.push_back(material);
     corners.insert(corners.end(), corners_of_cell.begin(), corners_of_cell.end());
     require_countable(corners.size());
     offsets.push_back(static_cast<RowOffset>(corners.size()));
@@ -44,10 +44,11 @@ void sort_by_numbers(CellTable& table);
 /// for each cell of the result whether it was in `table` before.
 std::vector<std::uint8_t> merge_into(CellTable& table, const CellTable& others);
 
-/// Appends a cell to words for another rank: its number, its tag, the number of its corners, these.
+/// Appends a cell to words for another rank: its number, its material, the number of its corners,
+/// these.
 inline void append_words(const CellTable& table, std::size_t c, std::vector<GlobalIndex>& words) {
   const auto corners = table[c];
-  words.insert(words.end(), {table.numbers[c], static_cast<GlobalIndex>(table.tags[c]),
+  words.insert(words.end(), {table.numbers[c], static_cast<GlobalIndex>(table.materials[c]),
                              static_cast<GlobalIndex>(corners.size())});
   words.insert(words.end(), corners.begin(), corners.end());
 }

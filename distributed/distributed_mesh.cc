@@ -288,9 +288,10 @@ DistributedMesh<dim> distribute(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   const auto n_neighbours =
       static_cast<std::size_t>(std::count(is_neighbour.begin(), is_neighbour.end(), 1));
   auto rows = local_rows(mesh.cells, nodes.numbers);
-  const auto& tags = mesh.cells.tags;
-  if (std::any_of(tags.begin(), tags.end(), [&](int tag) { return tag != tags.front(); }))
-    labels.cell_tags = std::move(mesh.cells.tags);
+  const auto& materials = mesh.cells.materials;
+  if (std::any_of(materials.begin(), materials.end(),
+                  [&](int material) { return material != materials.front(); }))
+    labels.cell_tags = std::move(mesh.cells.materials);
   mesh.cells = {};
   nodes = {NumberSet(0)};
   auto reasons = mesh.nodes.ask(numbers, [](const NodeEntry<dim>& entry) { return entry.reasons; });

@@ -19,8 +19,8 @@ struct DistributedMesh {
 };
 
 /// Makes the parts of a mesh. Nodes stay on the boundary, if the mesh says so, between cells of
-/// different tags, and for the reasons in the directory. Throws InputError on all ranks for cells
-/// that are no mesh. Collective.
+/// different materials, and for the reasons in the directory. Throws InputError on all ranks for
+/// cells that are no mesh. Collective.
 template <int dim>
 DistributedMesh<dim> distribute(const Ranks& ranks, ScatteredMesh<dim> mesh);
 

@@ -606,7 +606,39 @@ Examination examine_parts(const Ranks& ranks, ScatteredMesh<dim> mesh) {
   return PartsExaminer<dim>(ranks, std::move(mesh)).examine();
 }
 
+template <int dim>
+std::vector<std::string> require_conforming_parts(const Ranks& ranks,
+                                                  const std::filesystem::path& path,
+                                                  ScatteredMesh<dim> mesh,
+                                                  std::initializer_list<FindingKind> faults,
+                                                  const std::string& purpose) {
+  Examination seen;
+  try {
+    seen = examine_parts(ranks, std::move(mesh));
+  } catch (const InputError& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+  ranks.together([&] {
+    if (!ranks.is_root()) return;
+    for (const Finding& finding : seen.findings)
+      if (std::find(faults.begin(), faults.end(), finding.kind) != faults.end())
+        throw InputError(path.string() + ": " + finding.sentence + "; " + purpose +
+                         " needs a mesh that conforms");
+  });
+  return seen.not_looked_for;
+}
+
 template Examination examine_parts(const Ranks&, ScatteredMesh<2>);
 template Examination examine_parts(const Ranks&, ScatteredMesh<3>);
+template std::vector<std::string> require_conforming_parts(const Ranks&,
+                                                           const std::filesystem::path&,
+                                                           ScatteredMesh<2>,
+                                                           std::initializer_list<FindingKind>,
+                                                           const std::string&);
+template std::vector<std::string> require_conforming_parts(const Ranks&,
+                                                           const std::filesystem::path&,
+                                                           ScatteredMesh<3>,
+                                                           std::initializer_list<FindingKind>,
+                                                           const std::string&);
 
 }  // namespace smoothfem

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
 #include "distributed/scattered_mesh.h"
 #include "meshes/doctor/examine.h"
 
@@ -16,5 +21,15 @@ namespace smoothfem {
 /// Collective. Throws InputError on all ranks as examine() does, and if two cells have one number.
 template <int dim>
 Examination examine_parts(const Ranks& ranks, ScatteredMesh<dim> mesh);
+
+/// Throws InputError "path: ...; purpose needs a mesh that conforms" on all ranks if the mesh has
+/// faults of these kinds. Returns sentences about what was not looked for, on all ranks.
+/// Collective.
+template <int dim>
+std::vector<std::string> require_conforming_parts(const Ranks& ranks,
+                                                  const std::filesystem::path& path,
+                                                  ScatteredMesh<dim> mesh,
+                                                  std::initializer_list<FindingKind> faults,
+                                                  const std::string& purpose);
 
 }  // namespace smoothfem

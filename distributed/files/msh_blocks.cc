@@ -76,10 +76,10 @@ Elements read_elements(const std::filesystem::path& path, const MshLayout& layou
       for (std::size_t k = 1; k < size; ++k)
         row.push_back(small_tag(path, words[i + k], layout.last_node));
       if (block.dimension == dim)
-        elements.cells.append(small_tag(path, words[i], layout.last_element), block.group, row);
+        elements.cells.append(small_tag(path, words[i], layout.last_element), block.material, row);
       else if (block.dimension > 0)
         elements.used.insert(elements.used.end(), row.begin(), row.end());
-      if (block.dimension < dim && block.group != 0)
+      if (block.dimension < dim && block.has_group)
         elements.labelled.insert(elements.labelled.end(), row.begin(), row.end());
     }
   };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distributed/files/pieces.h"
 
+#include <cstring>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -23,13 +25,23 @@ namespace smoothfem {
 
 namespace {
 
+/// Arrays of pieces of VTK that decide on a result, and what happens to a piece without one that
+/// others have.
+enum PieceArray { tags_array, node_numbers_array, cell_numbers_array, fixed_array };
+constexpr std::array<std::string_view, 4> without_array{
+    "its cells count as cells of no group",
+    "nodes of all pieces with equal coordinates are joined instead",
+    "the cells of all pieces are numbered in the order of the files instead",
+    "its nodes stay only for the reasons that the mesh gives"};
+
 /// What a rank keeps of one piece until all are read.
 struct ReadPiece {
   std::vector<std::int64_t> numbers{};  ///< of its nodes; empty if the file has none
   std::vector<std::int64_t> cells{};    ///< numbers of its cells; empty if the file has none
   std::vector<Point<3>> points{};
   std::vector<FixedReasons> reasons{};
-  std::vector<std::size_t> node_ids{}, cell_ids{};  ///< of a whole mesh, for an examination
+  std::vector<std::size_t> node_ids{}, cell_ids{};         ///< of a whole mesh, for an examination
+  std::array<std::string, without_array.size()> arrays{};  ///< their names; empty: there is none
   int dim = 0;
   bool has_marks = false;
 };
@@ -37,6 +49,67 @@ struct ReadPiece {
 std::vector<std::int64_t> node_numbers(const MeshParts& parts) {
   const auto* ids = global_ids(parts.content.node_roles, parts.content.node_fields);
   return ids ? *ids : std::vector<std::int64_t>(parts.node_ids.begin(), parts.node_ids.end());
+}
+
+/// Returns the names of PieceArrays.
+std::array<std::string, without_array.size()> arrays_of(const MeshParts& parts, int dim) {
+  const FileContent& content = parts.content;
+  std::array<std::string, without_array.size()> names;
+  if (!parts.elements[static_cast<std::size_t>(dim)].tags.empty())
+    names[tags_array] =
+        content.tag_field.empty() ? std::string(vtk_tag_fields.front()) : content.tag_field;
+  if (global_ids(content.node_roles, content.node_fields))
+    names[node_numbers_array] = content.node_roles.at(global_ids_role);
+  else if (!parts.node_ids.empty())
+    names[node_numbers_array] = "node_id";
+  if (global_ids(content.element_roles, content.element_fields))
+    names[cell_numbers_array] = content.element_roles.at(global_ids_role);
+  if (parts.fixed) names[fixed_array] = "fixed";
+  return names;
+}
+
+/// Returns a sentence for each array that some pieces have and others do not. Pieces without nodes
+/// need no arrays. Collective.
+std::vector<std::string> notes_on_arrays(const Ranks& ranks,
+                                         const std::vector<std::filesystem::path>& files,
+                                         const std::vector<ReadPiece>& pieces) {
+  std::string lines;  // of each piece whether it has nodes, and the names
+  for (const ReadPiece& piece : pieces) {
+    lines += piece.points.empty() ? "0\n" : "1\n";
+    for (const std::string& name : piece.arrays) lines += name + "\n";
+  }
+  const auto bytes = ranks.gather_all(std::as_bytes(std::span(lines)));
+  std::istringstream all(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  struct Array {
+    std::string name;
+    std::size_t owner = 0, first_without = 0, n_without = 0;
+  };
+  std::array<Array, without_array.size()> arrays;
+  std::string word;
+  for (std::size_t p = 0; p < files.size() && std::getline(all, word); ++p) {
+    const bool has_nodes = word == "1";
+    for (Array& array : arrays) {
+      std::getline(all, word);
+      if (!word.empty() && array.name.empty()) {
+        array.name = word;
+        array.owner = p;
+      }
+      if (word.empty() && has_nodes && array.n_without++ == 0) array.first_without = p;
+    }
+  }
+  std::vector<std::string> notes;
+  for (std::size_t a = 0; a < arrays.size(); ++a) {
+    const auto& [name, owner, first, n] = arrays[a];
+    if (name.empty() || n == 0) continue;
+    const std::string others = n == 1   ? ""
+                               : n == 2 ? " and another piece"
+                                        : " and " + std::to_string(n - 1) + " other pieces";
+    notes.push_back(files[first].filename().string() + others + (n == 1 ? " has" : " have") +
+                    " no array '" + name + "', but " + files[owner].filename().string() +
+                    " has: " + std::string(without_array[a]) +
+                    "; write the pieces anew, each with the same arrays");
+  }
+  return notes;
 }
 
 /// Adds the reasons to stay that a file says: labelled elements below the cells' dimension, marks,
@@ -76,10 +149,61 @@ std::vector<std::size_t> ids_to_show(std::vector<std::size_t> ids, std::size_t n
   return ids;
 }
 
+/// Numbers of sets of physical groups: a material has one.
+using Materials = std::map<std::vector<int>, int>;
+
+/// Appends the cells of a piece, with node indices that begin at first_node. Adds materials that
+/// are new.
+void append_cells(const MeshParts& parts, int dim, std::size_t first_node, CellTable& table,
+                  Materials& materials) {
+  const ElementList& cells = parts.elements[static_cast<std::size_t>(dim)];
+  std::map<std::pair<int, int>, int> of_labels;
+  std::vector<GlobalIndex> row;
+  for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
+    row.clear();
+    for (const NodeIndex node : cells.nodes[c])
+      row.push_back(static_cast<GlobalIndex>(first_node + node));
+    const std::pair label(cells.entities.empty() ? 0 : cells.entities[c],
+                          cells.tags.empty() ? 0 : cells.tags[c]);
+    const auto [known, is_new] = of_labels.try_emplace(label, 0);
+    if (is_new)
+      known->second =
+          materials
+              .try_emplace(material_groups(&parts.content, dim, label.first, label.second),
+                           static_cast<int>(materials.size()))
+              .first->second;
+    table.append(static_cast<GlobalIndex>(table.size()), known->second, row);
+  }
+}
+
+/// Gives materials the same numbers on all ranks. Collective.
+void number_materials(const Ranks& ranks, const Materials& materials, std::vector<int>& of_cells) {
+  std::vector<int> words;  // for each material the number of its groups, these
+  for (const auto& [groups, number] : materials) {
+    words.push_back(static_cast<int>(groups.size()));
+    words.insert(words.end(), groups.begin(), groups.end());
+  }
+  const auto bytes = ranks.gather_all(std::as_bytes(std::span(words)));
+  std::vector<int> all_words(bytes.size() / sizeof(int));
+  if (!bytes.empty()) std::memcpy(all_words.data(), bytes.data(), bytes.size());
+  Materials all;
+  for (auto word = all_words.begin(); word != all_words.end();) {
+    const auto first = word + 1;
+    word = first + *word;
+    all.try_emplace({first, word}, 0);
+  }
+  int n = 0;
+  for (auto& [groups, number] : all) number = n++;
+  std::vector<int> new_number(materials.size());
+  for (const auto& [groups, number] : materials)
+    new_number[static_cast<std::size_t>(number)] = all.at(groups);
+  for (int& material : of_cells) material = new_number[static_cast<std::size_t>(material)];
+}
+
 /// has_tags: nodes and cells have the numbers of Gmsh. Takes the parts of a piece; appends its
 /// cells with node indices that begin at first_node.
 ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::size_t first_node,
-                     CellTable& table, ReadFor purpose, bool has_tags) {
+                     CellTable& table, Materials& materials, ReadFor purpose, bool has_tags) {
   if (parts.leaves_out_unused_nodes && purpose == ReadFor::smoothing)
     drop_unused_nodes(parts);  // as read_mesh() does
   ReadPiece piece{.dim = dimension_of(parts)};
@@ -91,14 +215,8 @@ ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::si
   const ElementList& cells = parts.elements[static_cast<std::size_t>(piece.dim)];
   if (!cells.midside.empty())
     refuse("a mesh of second order cannot be handled in parts; use one file without mpirun");
-  std::vector<GlobalIndex> row;
-  for (std::size_t c = 0; c < cells.nodes.size(); ++c) {
-    row.clear();
-    for (const NodeIndex node : cells.nodes[c])
-      row.push_back(static_cast<GlobalIndex>(first_node + node));
-    table.append(static_cast<GlobalIndex>(table.size()), cells.tags.empty() ? 0 : cells.tags[c],
-                 row);
-  }
+  append_cells(parts, piece.dim, first_node, table, materials);
+  piece.arrays = arrays_of(parts, piece.dim);
   piece.numbers = node_numbers(parts);
   piece.cells = has_tags ? std::vector<std::int64_t>(cells.ids.begin(), cells.ids.end())
                          : cell_numbers(parts);
@@ -290,7 +408,10 @@ void write_piece(const std::filesystem::path& path, MeshParts parts,
     points.back().head<dim>() = entry.point();
     fixed.push_back(entry.reasons != 0);
   }
-  write_vtu(out, plain_mesh(std::move(parts), std::move(points), std::move(fixed)));
+  const bool has_tags = !parts.elements[static_cast<std::size_t>(dim)].tags.empty();
+  PlainMesh mesh = plain_mesh(std::move(parts), std::move(points), std::move(fixed));
+  if (has_tags) mesh.labels.cell_tags.resize(mesh.cells.size(), 0);  // pieces keep their arrays
+  write_vtu(out, mesh);
 }
 
 }  // namespace
@@ -400,14 +521,15 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
   }
   std::vector<ReadPiece> pieces;
   CellTable cells;  // corners are positions among the nodes of all pieces
+  Materials materials;
   ranks_.together([&] {
     std::size_t n_nodes = 0;
     for (std::size_t p = first_piece(); p < last_piece(); ++p) {
       MeshParts parts = read_mesh_parts(files_[p]);
       if (purpose == ReadFor::smoothing) require_finite(files_[p], parts);
       if (kind_ == Kind::whole) notes_.insert(notes_.end(), parts.notes.begin(), parts.notes.end());
-      pieces.push_back(
-          take_piece(files_[p], std::move(parts), n_nodes, cells, purpose, kind_ == Kind::gmsh));
+      pieces.push_back(take_piece(files_[p], std::move(parts), n_nodes, cells, materials, purpose,
+                                  kind_ == Kind::gmsh));
       if (kind_ == Kind::whole) {  // all nodes are here; two of them may lie in one place
         pieces.back().numbers.resize(pieces.back().points.size());
         std::iota(pieces.back().numbers.begin(), pieces.back().numbers.end(), std::int64_t{0});
@@ -421,6 +543,11 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
       }
     }
   });
+  number_materials(ranks_, materials, cells.materials);
+  if (kind_ == Kind::vtk) {
+    const auto on_arrays = notes_on_arrays(ranks_, files_, pieces);
+    notes_.insert(notes_.end(), on_arrays.begin(), on_arrays.end());
+  }
   const auto any = [&](const auto& holds) {
     return ranks_.any(std::any_of(pieces.begin(), pieces.end(), holds));
   };

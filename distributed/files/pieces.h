@@ -55,8 +55,8 @@ class Pieces {
   /// Names the files that write() makes, for example "out_1.msh to out_3.msh".
   std::string output_text(const std::filesystem::path& out) const;
 
-  /// Returns which files are read, why the first rank alone reads one, and what it has left out,
-  /// one sentence each, on the root.
+  /// Returns which files are read, why the first rank alone reads one, what it has left out, and
+  /// which pieces lack an array that others have, one sentence each, on the root.
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// Returns what a file that the first rank wrote cannot hold, on the root, since write().

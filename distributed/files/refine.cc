@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "distributed/examine_parts.h"
 #include "distributed/files/pieces.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/vtk/vtk_files.h"
@@ -396,8 +397,17 @@ RefinedPieces refine_pieces(const Ranks& ranks, const std::filesystem::path& in,
   auto mesh = std::make_unique<std::variant<ScatteredMesh<2>, ScatteredMesh<3>>>(pieces.read());
   return std::visit(
       [&]<int dim>(ScatteredMesh<dim>& of_dim) {
+        // Both sides of a facet with hanging nodes would become a boundary.
+        auto notes = require_conforming_parts(
+            ranks, in,
+            ScatteredMesh<dim>{
+                .n_cells = of_dim.n_cells, .cells = std::move(of_dim.cells), .nodes = of_dim.nodes},
+            {FindingKind::hanging_nodes}, "--refine in parts");
         of_dim.cells = {};
-        return Refinement<dim>(ranks, in, pieces, std::move(of_dim)).write(out);
+        auto refined = Refinement<dim>(ranks, in, pieces, std::move(of_dim)).write(out);
+        refined.notes = pieces.notes();
+        refined.notes.insert(refined.notes.end(), notes.begin(), notes.end());
+        return refined;
       },
       *mesh);
 }

@@ -13,6 +13,7 @@ namespace smoothfem {
 struct RefinedPieces {
   std::size_t n_pieces = 0, n_cells = 0;
   std::vector<std::string> losses{};  ///< what the pieces say that the refined ones do not
+  std::vector<std::string> notes{};   ///< of Pieces, and what was not looked for, on the root
 };
 
 /// Splits the cells of a mesh in pieces (pieces.h) as with_split_cells() does, and writes as many
@@ -25,8 +26,8 @@ struct RefinedPieces {
 /// node stays if it lies on the boundary of the mesh between nodes that stay.
 ///
 /// Collective. Throws InputError on all ranks if `in` is no mesh in pieces, for surfaces, cells of
-/// second order, invalid cells, polygons with more than four nodes, and files that cannot be read
-/// or written.
+/// second order, hanging nodes, invalid cells, polygons with more than four nodes, and files that
+/// cannot be read or written. Cells are checked before anything is written.
 RefinedPieces refine_pieces(const Ranks& ranks, const std::filesystem::path& in,
                             const std::filesystem::path& out);
 

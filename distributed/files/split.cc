@@ -33,6 +33,7 @@ class Splitter {
  public:
   Splitter(const Mesh<dim>& mesh, std::vector<int> piece_of_cell)
       : mesh_(mesh), topology_(mesh.topology()), elements_(mesh), piece_(std::move(piece_of_cell)) {
+    for (std::size_t e = 0; e < elements_.size(); ++e) has_tags_ |= elements_.tag(e) != 0;
     for (std::size_t e = elements_.n_cells(); e < elements_.size(); ++e)
       piece_.push_back(piece_around(elements_.nodes(e)));
   }
@@ -64,7 +65,7 @@ class Splitter {
       const int tag = elements_.tag(e), dimension = elements_.dimension(e);
       if (e < elements_.n_cells()) {
         cells.append(row);
-        if (!topology_.labels().cell_tags.empty()) labels.cell_tags.push_back(tag);
+        if (has_tags_) labels.cell_tags.push_back(tag);  // the same arrays in all pieces
       } else if (e < elements_.n_cells() + topology_.labels().facets.size()) {
         labels.facets.append(row);
         labels.facet_tags.push_back(tag);
@@ -121,6 +122,7 @@ class Splitter {
   const Topology& topology_;
   AllElements elements_;
   std::vector<int> piece_;  ///< of all elements
+  bool has_tags_ = false;   ///< whether any element has one
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
+
 #include "distributed/scattered_mesh.h"
 #include "smoothing/mesh/mesh.h"
 
@@ -27,12 +29,16 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const Mesh<dim>& mesh) {
   return result;
 }
 
-/// All cells of a scattered mesh, in their order, as words: number, tag, corners.
+/// All cells of a scattered mesh, in their order, as words: number, material, corners. Materials
+/// are numbered as they first appear.
 template <int dim>
 std::vector<GlobalIndex> all_cells(const Ranks& ranks, const ScatteredMesh<dim>& mesh) {
   std::vector<std::vector<GlobalIndex>> to(static_cast<std::size_t>(ranks.size()));
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) append_words(mesh.cells, c, to[0]);
-  const CellTable cells = sorted_cells(ranks.exchange(std::move(to)), 0);
+  CellTable cells = sorted_cells(ranks.exchange(std::move(to)), 0);
+  std::map<int, int> numbers;
+  for (int& material : cells.materials)
+    material = numbers.try_emplace(material, static_cast<int>(numbers.size())).first->second;
   std::vector<GlobalIndex> words;
   for (std::size_t c = 0; c < cells.size(); ++c) append_words(cells, c, words);
   return words;

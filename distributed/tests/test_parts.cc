@@ -218,7 +218,7 @@ TEST(Parts, TablesMergeInOrder) {
     others.append(c, 20, c == 3 ? quadrilateral : triangle);
   const auto was_there = merge_into(table, others);
   EXPECT_THAT(table.numbers, testing::ElementsAre(0, 1, 2, 3, 4, 5, 7, 9));
-  EXPECT_THAT(table.tags, testing::ElementsAre(20, 10, 20, 20, 10, 10, 20, 10));
+  EXPECT_THAT(table.materials, testing::ElementsAre(20, 10, 20, 20, 10, 10, 20, 10));
   EXPECT_THAT(was_there, testing::ElementsAre(0, 1, 0, 0, 1, 1, 0, 1));
   for (std::size_t c = 0; c < table.size(); ++c)
     EXPECT_THAT(table[c], testing::ElementsAreArray(table.numbers[c] == 3 || table.numbers[c] == 4

@@ -253,6 +253,26 @@ TEST(RefinePieces, BoundariesOfFilesWithoutMarksStay) {
   });
 }
 
+/// A square next to two of half its size: both sides of the seam would become a boundary.
+TEST(RefinePieces, HangingNodesAreRefused) {
+  const Folder folder;
+  const auto mesh =
+      test::make_mesh({{0, 0}, {1, 0}, {1.5, 0}, {1, 0.5}, {1.5, 0.5}, {0, 1}, {1, 1}, {1.5, 1}},
+                      {{0, 1, 6, 5}, {1, 2, 4, 3}, {3, 4, 7, 6}});
+  all_ranks().on_root([&] { write_in_pieces(mesh, 3, folder / "in.pvtu"); });
+  std::string error;
+  try {
+    refine_pieces(all_ranks(), folder / "in.pvtu", folder / "out.pvtu");
+  } catch (const InputError& refused) {
+    error = refused.what();
+  }
+  EXPECT_FALSE(fs::exists(folder / "out.pvtu"));
+  EXPECT_FALSE(fs::exists(piece_file(folder / "out.pvtu", 0)));
+  EXPECT_THAT(error, HasSubstr("in.pvtu: the mesh does not conform: 1 hanging node lies inside"));
+  EXPECT_THAT(error, HasSubstr("(1, 0.5"));
+  EXPECT_THAT(error, HasSubstr("divide the larger cells"));
+}
+
 TEST(RefinePieces, OthersAreRefusedOnAllRanks) {
   const Folder folder;
   const auto refine = [&](const char* in, const char* out) {

@@ -107,6 +107,12 @@ void direct_alike(CompressedRows<NodeIndex>& facets) {
 
 }  // namespace
 
+std::vector<int> material_groups(const FileContent* content, int dimension, int entity, int tag) {
+  auto groups = groups_of(content, dimension, entity, tag);
+  std::sort(groups.begin(), groups.end());
+  return groups;
+}
+
 std::vector<int> cell_materials(const Topology& topology) {
   const MeshLabels& labels = topology.labels();
   const FileContent* content = labels.content.get();
@@ -119,8 +125,7 @@ std::vector<int> cell_materials(const Topology& topology) {
     const std::pair label(labels.cell_tags[c], has_entities ? content->cell_entities[c] : 0);
     const auto [known, is_new] = of_labels.try_emplace(label, 0);
     if (is_new) {
-      auto groups = groups_of(content, topology.dimension(), label.second, label.first);
-      std::sort(groups.begin(), groups.end());
+      auto groups = material_groups(content, topology.dimension(), label.second, label.first);
       known->second =
           numbers.try_emplace(std::move(groups), static_cast<int>(numbers.size())).first->second;
     }

@@ -7,6 +7,10 @@
 
 namespace smoothfem {
 
+/// Returns the physical groups of a cell, ascending. Cells are of one material if they are in the
+/// same groups. entity: of the model; 0: the file has none.
+std::vector<int> material_groups(const FileContent* content, int dimension, int entity, int tag);
+
 /// Returns a number for each cell; cells have the same one if they are in the same physical groups.
 /// Empty if all cells are.
 std::vector<int> cell_materials(const Topology& topology);

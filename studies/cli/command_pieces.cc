@@ -449,6 +449,7 @@ void smoothfem_refine_pieces(const std::string& in, const std::string& out, cons
     });
     const RefinedPieces refined = refine_pieces(ranks, in, out);
     if (!ranks.is_root()) return;
+    print_notes(in, refined.notes);
     print_left_out(in, refined.losses);
     if (!quiet) print_pieces(out, refined.n_cells, refined.n_pieces);
   });

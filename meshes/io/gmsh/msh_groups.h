@@ -136,6 +136,12 @@ class MshGroups {
                                                                     : found->second.groups.front();
   }
 
+  /// Returns all of an entity's groups.
+  std::vector<int> groups_of_entity(int dimension, int entity) const {
+    const auto found = entities_.find({dimension, entity});
+    return found == entities_.end() ? std::vector<int>() : found->second.groups;
+  }
+
   /// True if the entity has copies of elements of other partitions.
   bool has_ghosts(int dimension, int entity) const {
     return dimension == dimension_ && ghosts_.contains(entity) &&

@@ -18,7 +18,8 @@ struct MshNodeBlock {
 struct MshElementBlock {
   std::uint64_t n, at;
   int dimension;
-  int group;  ///< the first physical group of the entity; 0: none
+  bool has_group;  ///< whether the entity is in a physical group
+  int material;    ///< a number of its set of groups (material_groups())
   std::uint32_t n_nodes;
 };
 

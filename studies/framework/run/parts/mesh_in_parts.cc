@@ -124,17 +124,13 @@ void MeshInParts<dim>::write(const std::filesystem::path& path,
 std::vector<std::string> require_conforming_parts(const Ranks& ranks,
                                                   const std::filesystem::path& file) {
   auto scattered = Pieces(ranks, file).read(ReadFor::examination);
-  const Examination seen =
-      std::visit([&](auto& mesh) { return examine_parts(ranks, std::move(mesh)); }, scattered);
-  ranks.together([&] {
-    if (!ranks.is_root()) return;
-    for (const Finding& finding : seen.findings)
-      if (finding.kind == FindingKind::hanging_nodes ||
-          finding.kind == FindingKind::coincident_nodes)
-        throw InputError(file.string() + ": " + finding.sentence +
-                         "; a study in parts needs a mesh that conforms");
-  });
-  return seen.not_looked_for;
+  return std::visit(
+      [&](auto& mesh) {
+        return require_conforming_parts(ranks, file, std::move(mesh),
+                                        {FindingKind::hanging_nodes, FindingKind::coincident_nodes},
+                                        "a study in parts");
+      },
+      scattered);
 }
 
 template class MeshInParts<2>;
