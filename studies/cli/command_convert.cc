@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "meshes/doctor/examine_boundary.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/refinement/split_cells.h"
@@ -52,6 +53,10 @@ AnyMesh refined_mesh(const std::string& path, const MeshFile& file) {
       [&]<int dim, int spacedim>(const Mesh<dim, spacedim>& mesh) -> AnyMesh {
         if constexpr (dim == spacedim) {
           require_valid(mesh, path, file.cell_lines);
+          for (const Finding& finding : examine_boundary(mesh).findings)
+            if (finding.kind == FindingKind::hanging_nodes)
+              throw InputError(path + ": " + finding.sentence +
+                               "; --refine needs a mesh that conforms");
           print_left_out(path, losses_of_splitting(mesh.topology().labels()));
           return refined(mesh);
         } else {

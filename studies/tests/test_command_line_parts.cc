@@ -112,6 +112,11 @@ TEST_F(CommandLine, RefinementSaysWhatToDo) {
             "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
             "0 0 1 0\nTriangles\n4\n1 3 2 0\n1 2 4 0\n2 3 4 0\n1 4 3 0\nEnd\n");
   EXPECT_THAT(refused({"surface.mesh", "out.vtu"}), HasSubstr("surface meshes cannot be refined"));
+  file_with(
+      "hanging.mesh",
+      "MeshVersionFormatted 2\nDimension 2\nVertices\n8\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n"
+      "3 0 0\n3 1 0\n2 1 0\n3 2 0\nQuadrilaterals\n3\n1 2 3 4 0\n2 5 6 7 0\n7 6 8 3 0\nEnd\n");
+  EXPECT_THAT(refused({"hanging.mesh", "out.vtu"}), HasSubstr("hanging"));
   EXPECT_FALSE(std::filesystem::exists(file("out.pvtu")) ||
                std::filesystem::exists(file("out.vtu")));
 }
