@@ -122,6 +122,9 @@ TEST_F(SmallResume, RecordsOfMeshesInPartsGoOnAfterAnInterruption) {
   EXPECT_EQ(content_of(file("two.csv")), kept);
   EXPECT_EQ(on(1, "two.csv", "sine", {"--finite-elements", "cg tolerance=2"}), 2);
   EXPECT_EQ(on(1, "two.csv", "none"), 2);
+  const std::string mesh = content_of(file("grid.mesh"));
+  EXPECT_EQ(on(1, "grid.mesh", "sine"), 2);  // a log in the place of the mesh
+  EXPECT_EQ(content_of(file("grid.mesh")), mesh);
   EXPECT_EQ(content_of(file("two.csv")), kept);
 }
 
