@@ -133,7 +133,7 @@ class RankPart final : public MeshPart {
     return flags;
   }
   std::vector<std::byte> gather_bytes(std::span<const std::byte> bytes) const override {
-    return ranks_.gather_all(bytes);
+    return ranks_.gather_all_bytes(bytes);
   }
 
   Ranks ranks_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distributed/files/pieces.h"
 
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <map>
@@ -68,45 +67,43 @@ std::array<std::string, without_array.size()> arrays_of(const MeshParts& parts, 
   return names;
 }
 
-/// Returns a sentence for each array that some pieces have and others do not. Pieces without nodes
-/// need no arrays. Collective.
+/// Returns "a.vtu has", "a.vtu and another piece have" or "a.vtu and 2 other pieces have".
+std::string some_have(const std::filesystem::path& first, std::size_t n) {
+  const std::string name = first.filename().string();
+  if (n == 1) return name + " has";
+  if (n == 2) return name + " and another piece have";
+  return name + " and " + std::to_string(n - 1) + " other pieces have";
+}
+
+/// Returns a sentence for each array that some pieces have and others do not. Collective.
 std::vector<std::string> notes_on_arrays(const Ranks& ranks,
                                          const std::vector<std::filesystem::path>& files,
                                          const std::vector<ReadPiece>& pieces) {
-  std::string lines;  // of each piece whether it has nodes, and the names
-  for (const ReadPiece& piece : pieces) {
-    lines += piece.points.empty() ? "0\n" : "1\n";
+  std::string lines;  // the names of each piece
+  for (const ReadPiece& piece : pieces)
     for (const std::string& name : piece.arrays) lines += name + "\n";
-  }
-  const auto bytes = ranks.gather_all(std::as_bytes(std::span(lines)));
-  std::istringstream all(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  std::istringstream all(ranks.gather_all(lines));
   struct Array {
     std::string name;
     std::size_t owner = 0, first_without = 0, n_without = 0;
   };
   std::array<Array, without_array.size()> arrays;
   std::string word;
-  for (std::size_t p = 0; p < files.size() && std::getline(all, word); ++p) {
-    const bool has_nodes = word == "1";
+  for (std::size_t p = 0; p < files.size(); ++p)
     for (Array& array : arrays) {
       std::getline(all, word);
       if (!word.empty() && array.name.empty()) {
         array.name = word;
         array.owner = p;
       }
-      if (word.empty() && has_nodes && array.n_without++ == 0) array.first_without = p;
+      if (word.empty() && array.n_without++ == 0) array.first_without = p;
     }
-  }
   std::vector<std::string> notes;
   for (std::size_t a = 0; a < arrays.size(); ++a) {
     const auto& [name, owner, first, n] = arrays[a];
     if (name.empty() || n == 0) continue;
-    const std::string others = n == 1   ? ""
-                               : n == 2 ? " and another piece"
-                                        : " and " + std::to_string(n - 1) + " other pieces";
-    notes.push_back(files[first].filename().string() + others + (n == 1 ? " has" : " have") +
-                    " no array '" + name + "', but " + files[owner].filename().string() +
-                    " has: " + std::string(without_array[a]) +
+    notes.push_back(some_have(files[first], n) + " no array '" + name + "', but " +
+                    files[owner].filename().string() + " has: " + std::string(without_array[a]) +
                     "; write the pieces anew, each with the same arrays");
   }
   return notes;
@@ -149,13 +146,10 @@ std::vector<std::size_t> ids_to_show(std::vector<std::size_t> ids, std::size_t n
   return ids;
 }
 
-/// Numbers of sets of physical groups: a material has one.
-using Materials = std::map<std::vector<int>, int>;
-
 /// Appends the cells of a piece, with node indices that begin at first_node. Adds materials that
 /// are new.
 void append_cells(const MeshParts& parts, int dim, std::size_t first_node, CellTable& table,
-                  Materials& materials) {
+                  MaterialNumbers& materials) {
   const ElementList& cells = parts.elements[static_cast<std::size_t>(dim)];
   std::map<std::pair<int, int>, int> of_labels;
   std::vector<GlobalIndex> row;
@@ -167,43 +161,37 @@ void append_cells(const MeshParts& parts, int dim, std::size_t first_node, CellT
                           cells.tags.empty() ? 0 : cells.tags[c]);
     const auto [known, is_new] = of_labels.try_emplace(label, 0);
     if (is_new)
-      known->second =
-          materials
-              .try_emplace(material_groups(&parts.content, dim, label.first, label.second),
-                           static_cast<int>(materials.size()))
-              .first->second;
+      known->second = materials.of(groups_of(&parts.content, dim, label.first, label.second));
     table.append(static_cast<GlobalIndex>(table.size()), known->second, row);
   }
 }
 
 /// Gives materials the same numbers on all ranks. Collective.
-void number_materials(const Ranks& ranks, const Materials& materials, std::vector<int>& of_cells) {
+void number_materials(const Ranks& ranks, const MaterialNumbers& materials,
+                      std::vector<int>& of_cells) {
   std::vector<int> words;  // for each material the number of its groups, these
-  for (const auto& [groups, number] : materials) {
+  for (const auto& [groups, number] : materials.all()) {
     words.push_back(static_cast<int>(groups.size()));
     words.insert(words.end(), groups.begin(), groups.end());
   }
-  const auto bytes = ranks.gather_all(std::as_bytes(std::span(words)));
-  std::vector<int> all_words(bytes.size() / sizeof(int));
-  if (!bytes.empty()) std::memcpy(all_words.data(), bytes.data(), bytes.size());
-  Materials all;
-  for (auto word = all_words.begin(); word != all_words.end();) {
+  words = ranks.gather_all(words);
+  std::set<std::vector<int>> all;
+  for (auto word = words.begin(); word != words.end();) {
     const auto first = word + 1;
     word = first + *word;
-    all.try_emplace({first, word}, 0);
+    all.emplace(first, word);
   }
-  int n = 0;
-  for (auto& [groups, number] : all) number = n++;
-  std::vector<int> new_number(materials.size());
-  for (const auto& [groups, number] : materials)
-    new_number[static_cast<std::size_t>(number)] = all.at(groups);
+  std::vector<int> new_number(materials.all().size());
+  for (const auto& [groups, number] : materials.all())
+    new_number[static_cast<std::size_t>(number)] =
+        static_cast<int>(std::distance(all.begin(), all.find(groups)));
   for (int& material : of_cells) material = new_number[static_cast<std::size_t>(material)];
 }
 
 /// has_tags: nodes and cells have the numbers of Gmsh. Takes the parts of a piece; appends its
 /// cells with node indices that begin at first_node.
 ReadPiece take_piece(const std::filesystem::path& path, MeshParts parts, std::size_t first_node,
-                     CellTable& table, Materials& materials, ReadFor purpose, bool has_tags) {
+                     CellTable& table, MaterialNumbers& materials, ReadFor purpose, bool has_tags) {
   if (parts.leaves_out_unused_nodes && purpose == ReadFor::smoothing)
     drop_unused_nodes(parts);  // as read_mesh() does
   ReadPiece piece{.dim = dimension_of(parts)};
@@ -430,6 +418,7 @@ Pieces::Pieces(const Ranks& ranks, const std::filesystem::path& path) : ranks_(r
   if (is_list(path)) {
     kind_ = Kind::vtk;
     ranks_.together([&] { files_ = files_of_pvtu(path); });
+    leave_out_empty_pieces();
     return;
   }
   MshPart part;
@@ -454,6 +443,25 @@ Pieces::Pieces(const Ranks& ranks, const std::filesystem::path& path) : ranks_(r
     notes_.push_back("the files " + files_.front().filename().string() + " to " +
                      files_.back().filename().string() + " are read, as parts of one mesh");
   });
+}
+
+void Pieces::leave_out_empty_pieces() {
+  std::string is_empty;  // a character for each piece
+  ranks_.together([&] {
+    for (std::size_t p = first_piece(); p < last_piece(); ++p)
+      is_empty += is_empty_vtu(files_[p]) ? 'y' : 'n';
+  });
+  is_empty = ranks_.gather_all(is_empty);
+  const std::size_t first = is_empty.find('y');
+  if (first == std::string::npos) return;
+  const std::filesystem::path empty = files_[first];
+  std::vector<std::filesystem::path> others;
+  for (std::size_t p = 0; p < files_.size(); ++p)
+    if (is_empty[p] == 'n') others.push_back(files_[p]);
+  if (others.empty()) throw InputError(path_.string() + ": its pieces have no points");
+  notes_.push_back(some_have(empty, files_.size() - others.size()) +
+                   " no points; the mesh is read from the other pieces");
+  files_ = std::move(others);
 }
 
 std::filesystem::path Pieces::default_output() const {
@@ -497,8 +505,8 @@ std::vector<std::filesystem::path> Pieces::output_files(const std::filesystem::p
 
 std::string Pieces::output_text(const std::filesystem::path& out) const {
   if (kind_ != Kind::gmsh) return out.string();
-  return msh_part_file(out, 1).string() + " to " +
-         msh_part_file(out, static_cast<int>(files_.size())).filename().string();
+  const auto files = output_files(out);
+  return files.front().string() + " to " + files.back().filename().string();
 }
 
 std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces) {
@@ -521,7 +529,7 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
   }
   std::vector<ReadPiece> pieces;
   CellTable cells;  // corners are positions among the nodes of all pieces
-  Materials materials;
+  MaterialNumbers materials;
   ranks_.together([&] {
     std::size_t n_nodes = 0;
     for (std::size_t p = first_piece(); p < last_piece(); ++p) {

@@ -35,8 +35,8 @@ std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces);
 /// rank.
 class Pieces {
  public:
-  /// Finds the files. Collective. Throws InputError "path:line: ..." on all ranks, also if a file
-  /// of Gmsh is missing.
+  /// Finds the files; pieces without points are left out. Collective. Throws InputError
+  /// "path:line: ..." on all ranks, also if a file of Gmsh is missing.
   Pieces(const Ranks& ranks, const std::filesystem::path& path);
 
   static bool is_list(const std::filesystem::path& path) { return path.extension() == ".pvtu"; }
@@ -96,6 +96,7 @@ class Pieces {
   /// Kinds of files, by what their pieces are.
   enum class Kind { whole, vtk, gmsh };
 
+  void leave_out_empty_pieces();
   template <int dim>
   void write_gmsh_parts(const std::filesystem::path& out,
                         const NodeDirectory<NodeEntry<dim>>& directory) const;

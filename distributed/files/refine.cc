@@ -153,8 +153,7 @@ class NewNodes {
 std::vector<std::string> on_all_ranks(const Ranks& ranks, const std::set<std::string>& texts) {
   std::string lines;
   for (const std::string& text : texts) lines += text + "\n";
-  const auto bytes = ranks.gather_all(std::as_bytes(std::span(lines)));
-  std::istringstream all(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  std::istringstream all(ranks.gather_all(lines));
   std::set<std::string> result;
   for (std::string line; std::getline(all, line);) result.insert(line);
   return {result.begin(), result.end()};

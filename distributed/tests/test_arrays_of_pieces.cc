@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces that lack an array of others make another result, which the program must say.
+// Pieces that lack an array of others make another result, and pieces without points are left out.
+// The program must say both.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,6 +23,7 @@ using test::GridCells;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::ThrowsMessage;
 
 /// Gives an array of a piece a name that says nothing.
 void hide(const fs::path& list, std::size_t piece, const std::string& name) {
@@ -86,6 +88,56 @@ TEST(ArraysOfPieces, AreTheSameInPiecesOfThisProgram) {
   EXPECT_THAT(finer.notes(), IsEmpty());
   for (std::size_t p = 0; p < 3; ++p)
     EXPECT_THAT(content_of(piece_file(out, p)), HasSubstr("physical_tag"));
+}
+
+/// Lists a piece without points before the others, as programs write it for a process without
+/// cells.
+void add_empty_piece(const fs::path& list, const std::string& name) {
+  all_ranks().on_root([&] {
+    std::ofstream(list.parent_path() / name)
+        << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">"
+           "<UnstructuredGrid><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><Points/><Cells/>"
+           "</Piece></UnstructuredGrid></VTKFile>";
+    std::string text = content_of(list);
+    const std::size_t at = text.find("<Piece ");
+    ASSERT_NE(at, std::string::npos);
+    std::ofstream(list, std::ios::binary)
+        << text.insert(at, "<Piece Source=\"" + name + "\"/>\n    ");
+  });
+}
+
+TEST(EmptyPieces, AreLeftOutAndNamed) {
+  const Folder folder;
+  const fs::path list = folder / "split.pvtu", out = folder / "smoothed.pvtu";
+  all_ranks().on_root([&] {
+    write_in_pieces(test::two_materials(grid_mesh(4, GridCells::triangles), 0.2, 3), 3, list);
+  });
+  const auto expected = test::smooth_pieces<2>(all_ranks(), Pieces(all_ranks(), list), out);
+  add_empty_piece(list, "empty.vtu");
+  const Pieces pieces(all_ranks(), list);
+  EXPECT_THAT(pieces.notes(),
+              ElementsAre("empty.vtu has no points; the mesh is read from the other pieces"));
+  const auto smoothed = test::smooth_pieces<2>(all_ranks(), pieces, out);
+  EXPECT_EQ(smoothed.copied_coordinates(), expected.copied_coordinates());
+  add_empty_piece(list, "other.vtu");
+  for (const auto& notes : all_notes(list))
+    EXPECT_THAT(notes, ElementsAre("other.vtu and another piece have no points; the mesh is read "
+                                   "from the other pieces"));
+}
+
+TEST(EmptyPieces, OneMustHavePoints) {
+  const Folder folder;
+  const fs::path list = folder / "split.pvtu";
+  all_ranks().on_root([&] {
+    std::ofstream(list) << "<VTKFile><PUnstructuredGrid><Piece /></PUnstructuredGrid></VTKFile>";
+  });
+  add_empty_piece(list, "empty.vtu");
+  all_ranks().on_root([&] {
+    std::string text = content_of(list);
+    std::ofstream(list) << text.erase(text.find("<Piece />"), 9);
+  });
+  EXPECT_THAT([&] { (void)Pieces(all_ranks(), list); },
+              ThrowsMessage<InputError>(HasSubstr("split.pvtu: its pieces have no points")));
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ double Ranks::max(double value) const {
   return value;
 }
 
-std::vector<std::byte> Ranks::gather_all(std::span<const std::byte> bytes) const {
+std::vector<std::byte> Ranks::gather_all_bytes(std::span<const std::byte> bytes) const {
   if (size_ == 1) return {bytes.begin(), bytes.end()};
   std::vector<int> counts(static_cast<std::size_t>(size_));
   const int count = static_cast<int>(bytes.size());

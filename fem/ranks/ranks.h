@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <numeric>
@@ -73,8 +74,18 @@ class Ranks {
     gather_items(values.data(), counts, sizeof(T), all.data(), values.size());
     return all;
   }
-  /// Returns the bytes of all ranks, one rank's after the other's, on each. Collective.
-  std::vector<std::byte> gather_all(std::span<const std::byte> bytes) const;
+  /// Returns the items of all ranks, one rank's after the other's, on each: a vector or a string.
+  /// Collective.
+  template <class Items>
+  Items gather_all(const Items& items) const {
+    static_assert(std::is_trivially_copyable_v<typename Items::value_type>);
+    const auto bytes = gather_all_bytes(std::as_bytes(std::span(items)));
+    Items all;
+    all.resize(bytes.size() / sizeof(typename Items::value_type));
+    if (!bytes.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
+    return all;
+  }
+  std::vector<std::byte> gather_all_bytes(std::span<const std::byte> bytes) const;
   /// Replaces ascending cells by the lowest ones of all ranks, the same on each. Each rank passes
   /// the same number of cells. Collective.
   void keep_lowest(std::span<KeyedCell> cells) const;

@@ -204,6 +204,20 @@ TEST_F(Pieces, ArePutTogetherWithoutGhosts) {
   EXPECT_EQ(content.element_fields[0].number(1), 11.0);
 }
 
+TEST_F(Pieces, ThatDoNotMarkGhostsHaveNone) {
+  std::string second = piece(1, 11);
+  const std::size_t at = second.find("vtkGhostType");
+  ASSERT_NE(at, std::string::npos);
+  file_with("a_0.vtu", piece(0, 10, true));
+  file_with("a_1.vtu", second.replace(at, 12, "another"));
+  for (const auto& order :
+       {std::vector<std::string>{"a_0.vtu", "a_1.vtu"}, {"a_1.vtu", "a_0.vtu"}}) {
+    const MeshFile read = read_mesh(file_with("a.pvtu", list(order)));
+    EXPECT_EQ(topology(read).n_cells(), 2u);
+    EXPECT_THAT(read.notes, ::testing::Contains(HasSubstr("1 ghost cells")));
+  }
+}
+
 TEST_F(Pieces, AreRefusedIfTheyAreElsewhereMissingOrListedTwice) {
   std::filesystem::create_directory(file("job"));
   file_with("a.vtu", piece(0, 10));

@@ -107,10 +107,9 @@ void direct_alike(CompressedRows<NodeIndex>& facets) {
 
 }  // namespace
 
-std::vector<int> material_groups(const FileContent* content, int dimension, int entity, int tag) {
-  auto groups = groups_of(content, dimension, entity, tag);
+int MaterialNumbers::of(std::vector<int> groups) {
   std::sort(groups.begin(), groups.end());
-  return groups;
+  return numbers_.try_emplace(std::move(groups), static_cast<int>(numbers_.size())).first->second;
 }
 
 std::vector<int> cell_materials(const Topology& topology) {
@@ -118,20 +117,18 @@ std::vector<int> cell_materials(const Topology& topology) {
   const FileContent* content = labels.content.get();
   const bool has_entities = content && !content->cell_entities.empty();
   if (labels.cell_tags.empty()) return {};
-  std::map<std::vector<int>, int> numbers;  // of the groups, ascending
+  MaterialNumbers numbers;
   std::map<std::pair<int, int>, int> of_labels;
   std::vector<int> materials(topology.n_cells());
   for (CellIndex c = 0; c < topology.n_cells(); ++c) {
     const std::pair label(labels.cell_tags[c], has_entities ? content->cell_entities[c] : 0);
     const auto [known, is_new] = of_labels.try_emplace(label, 0);
-    if (is_new) {
-      auto groups = material_groups(content, topology.dimension(), label.second, label.first);
+    if (is_new)
       known->second =
-          numbers.try_emplace(std::move(groups), static_cast<int>(numbers.size())).first->second;
-    }
+          numbers.of(groups_of(content, topology.dimension(), label.second, label.first));
     materials[c] = known->second;
   }
-  if (numbers.size() < 2) materials.clear();
+  if (numbers.all().size() < 2) materials.clear();
   return materials;
 }
 

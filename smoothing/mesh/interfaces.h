@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "smoothing/mesh/topology.h"
 
 namespace smoothfem {
 
-/// Returns the physical groups of a cell, ascending. Cells are of one material if they are in the
-/// same groups. entity: of the model; 0: the file has none.
-std::vector<int> material_groups(const FileContent* content, int dimension, int entity, int tag);
+/// Numbers of sets of physical groups. Cells in the same groups are of one material.
+class MaterialNumbers {
+ public:
+  /// Returns the number of a set, in any order. A set that is not known gets the next number.
+  int of(std::vector<int> groups);
+  /// Of all known sets, ascending.
+  const std::map<std::vector<int>, int>& all() const { return numbers_; }
+
+ private:
+  std::map<std::vector<int>, int> numbers_;
+};
 
 /// Returns a number for each cell; cells have the same one if they are in the same physical groups.
 /// Empty if all cells are.

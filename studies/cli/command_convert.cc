@@ -6,6 +6,7 @@
 
 #include "meshes/doctor/examine_boundary.h"
 #include "meshes/io/atomic_file.h"
+#include "meshes/io/losses.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/refinement/split_cells.h"
 #include "smoothing/quality/mesh_quality.h"
@@ -29,12 +30,6 @@ bool is_in_pieces(const std::string& path) {
   return std::filesystem::path(path).extension() == ".pvtu";
 }
 
-/// Throws on all processes; the first one says why.
-[[noreturn]] void refuse(const std::string& why) {
-  if (!is_first_process()) throw ExitCode{2};
-  throw InputError(why);
-}
-
 void refine_in_pieces(const ConvertArguments& a) {
   const std::pair<bool, const char*> given[]{{a.n_pieces.has_value(), "--pieces"},
                                              {!a.tag_field.empty(), "--tag-field"},
@@ -43,8 +38,8 @@ void refine_in_pieces(const ConvertArguments& a) {
                                              {a.keep_orientation, "--keep-orientation"}};
   for (const auto& [is_given, option] : given)
     if (is_given)
-      refuse(std::string(option) +
-             " does not work with --refine on a mesh in pieces; leave it out");
+      throw InputError(std::string(option) +
+                       " does not work with --refine on a mesh in pieces; leave it out");
   refine_pieces(a.in, a.out, a.quiet);
 }
 
@@ -71,7 +66,7 @@ void convert(ConvertArguments arguments) {
     return refine_in_pieces(arguments);
   const bool splits = is_in_pieces(arguments.out);
   if (splits && n_processes() > 1)
-    refuse("one process divides a whole mesh into pieces; leave out mpirun");
+    throw InputError("one process divides a whole mesh into pieces; leave out mpirun");
   if (!is_first_process()) return;
   if (arguments.n_pieces && !splits)
     throw InputError("--pieces is for a .pvtu file, not " + arguments.out + "; leave it out");
@@ -92,7 +87,7 @@ void convert(ConvertArguments arguments) {
   const MeshView mesh(file.mesh);
   if (splits) {
     split_mesh(file.mesh, arguments.n_pieces.value_or(8), arguments.in, arguments.out);
-    print_losses(arguments.out, mesh, target.options);
+    print_losses(arguments.out, losses("piece.vtu", mesh, target.options));
   } else {
     write_mesh(arguments.out, mesh, {}, target.options);
     print_losses(arguments.out, mesh, target.options);

@@ -26,8 +26,7 @@ std::string rounded(double value, int digits) {
 
 void print_losses(const std::filesystem::path& path, const MeshView& mesh,
                   const MeshWriteOptions& options) {
-  const bool is_list = path.extension() == ".pvtu";
-  print_losses(path, losses(is_list ? "piece.vtu" : path, mesh, options));
+  print_losses(path, losses(path, mesh, options));
 }
 
 void print_losses(const std::filesystem::path& path, const std::vector<std::string>& lost) {

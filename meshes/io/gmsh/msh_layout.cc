@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <optional>
 #include <string_view>
 
@@ -109,12 +108,13 @@ class LayoutScan {
       const MshType type = msh_type(entity[2]);
       if (type.number == 0 || type.n_nodes != type.n_corners)
         return refuse("it has elements of second order or of unknown types");
-      MshElementBlock block{.n = take<std::uint64_t>(),
-                            .at = at_,
-                            .dimension = type.dimension,
-                            .has_group = groups_.tag_of_entity(entity[0], entity[1]) != 0,
-                            .material = material_of(entity[0], entity[1]),
-                            .n_nodes = static_cast<std::uint32_t>(type.n_nodes)};
+      MshElementBlock block{
+          .n = take<std::uint64_t>(),
+          .at = at_,
+          .dimension = type.dimension,
+          .has_group = groups_.tag_of_entity(entity[0], entity[1]) != 0,
+          .material = materials_.of(groups_.groups_of_entity(entity[0], entity[1])),
+          .n_nodes = static_cast<std::uint32_t>(type.n_nodes)};
       if (entity[0] != type.dimension) return refuse("it is damaged");
       if (!fits(block.n, 8 + 8 * type.n_nodes)) return;
       at_ += block.n * (8 + 8 * type.n_nodes);
@@ -122,13 +122,6 @@ class LayoutScan {
         layout_.elements.push_back(block);
     }
     require_end("$Elements");
-  }
-
-  int material_of(int dimension, int entity) {
-    auto groups = groups_.groups_of_entity(dimension, entity);
-    std::sort(groups.begin(), groups.end());  // as material_groups() does
-    return materials_.try_emplace(std::move(groups), static_cast<int>(materials_.size()))
-        .first->second;
   }
 
   /// Data say which nodes must stay if they have one of these names.
@@ -194,7 +187,7 @@ class LayoutScan {
   FileParts file_;
   std::uint64_t at_ = 0;
   MshGroups groups_;
-  std::map<std::vector<int>, int> materials_;  ///< numbers of sets of groups
+  MaterialNumbers materials_;
   MshLayout layout_;
 };
 

@@ -19,7 +19,7 @@ struct MshElementBlock {
   std::uint64_t n, at;
   int dimension;
   bool has_group;  ///< whether the entity is in a physical group
-  int material;    ///< a number of its set of groups (material_groups())
+  int material;    ///< of its groups (MaterialNumbers)
   std::uint32_t n_nodes;
 };
 

@@ -20,7 +20,6 @@ namespace smoothfem {
 
 namespace {
 
-/// The arrays that mark cells which another piece has as well.
 constexpr std::string_view ghost_array = "vtkGhostType";
 
 /// Reads the pieces of files as one grid.
@@ -40,22 +39,15 @@ class VtuReader {
   }
 
  private:
-  /// Removes ghost cells and the arrays that mark them.
+  /// Removes ghost cells and the marks of points. Those of cells were not kept.
   void leave_out_ghosts() {
-    constexpr std::int64_t duplicate = 1;  // vtkDataSetAttributes::DUPLICATECELL
-    auto& fields = grid_.cell_fields;
-    const auto ghosts = std::find_if(fields.begin(), fields.end(), [](const MeshField& field) {
-      return field.name == ghost_array && field.n_components == 1 && is_integer(field.type);
-    });
-    if (ghosts == fields.end()) return;
-    const auto marks = std::get<std::vector<std::int64_t>>(ghosts->values);
-    fields.erase(ghosts);
+    if (!has_marks_) return;
     std::erase_if(grid_.point_fields,
                   [](const MeshField& field) { return field.name == ghost_array; });
     VtkCells kept;
     std::vector<std::size_t> rows;
     for (std::size_t c = 0; c < grid_.cells.size(); ++c) {
-      if ((marks[c] & duplicate) != 0) continue;
+      if (is_ghost_[c]) continue;
       rows.push_back(c);
       for (RowOffset k = grid_.cells.offsets[c]; k < grid_.cells.offsets[c + 1]; ++k)
         kept.nodes.push_back(grid_.cells.nodes[k]);
@@ -68,7 +60,7 @@ class VtuReader {
     grid_.has_unused_points = true;
     grid_.notes.push_back(std::to_string(n_ghosts) +
                           " ghost cells, which another piece has, are left out");
-    for (MeshField& field : fields) keep_rows(field, rows);
+    for (MeshField& field : grid_.cell_fields) keep_rows(field, rows);
   }
 
   static void keep_rows(MeshField& field, const std::vector<std::size_t>& rows) {
@@ -87,12 +79,32 @@ class VtuReader {
     const std::size_t first_point = grid_.points.size(), first_cell = grid_.cells.size();
     if (piece.n_points > 0) read_points(piece);
     if (piece.n_cells > 0) grid_.cells.append(read_cells(piece), first_point);
+    read_ghosts(piece);
     read_roles(piece, "PointData", grid_.point_roles);
     read_roles(piece, "CellData", grid_.cell_roles);
     if (piece.n_points > 0)
       read_arrays(piece, "PointData", piece.n_points, first_point == 0, grid_.point_fields);
     if (piece.n_cells > 0)
       read_arrays(piece, "CellData", piece.n_cells, first_cell == 0, grid_.cell_fields);
+  }
+
+  /// True for an array that marks cells which another piece has as well.
+  bool marks_ghosts(const VtuArray& array) const {
+    return array.name == ghost_array && array.n_components == 1 && file_->has_numbers(array) &&
+           is_integer(file_->type_of(array));
+  }
+
+  /// A piece without marks has no ghost cells.
+  void read_ghosts(const VtuPiece& piece) {
+    constexpr std::int64_t duplicate = 1;  // vtkDataSetAttributes::DUPLICATECELL
+    const VtuArray* marks = piece.array("CellData", ghost_array);
+    if (marks && marks_ghosts(*marks)) {
+      has_marks_ = true;
+      file_->read<AnyInteger>(
+          *marks, piece.n_cells, [] {},
+          [&](AnyInteger mark) { is_ghost_.push_back((mark.value & duplicate) != 0); });
+    }
+    is_ghost_.resize(grid_.cells.size(), false);
   }
 
   /// Adds those of a piece that the pieces before it do not have.
@@ -166,6 +178,7 @@ class VtuReader {
       for (const VtuArray& array : found->second) {
         const std::string name(array.name);
         if (piece.array(section, array.name) != &array) continue;
+        if (section == "CellData" && marks_ghosts(array)) continue;
         const auto same = std::find_if(fields.begin(), fields.end(), [&](const MeshField& field) {
           return field.name == name && field.n_components == array.n_components;
         });
@@ -242,6 +255,8 @@ class VtuReader {
 
   VtuFile* file_ = nullptr;  ///< that is being read
   VtkGrid grid_;
+  bool has_marks_ = false;
+  std::vector<bool> is_ghost_;  ///< for each cell
 };
 
 /// Frees the text before the mesh is made of its parts: large meshes would need more memory.
@@ -312,6 +327,21 @@ std::vector<std::filesystem::path> files_of_pvtu(const std::filesystem::path& pa
   if (files.empty())
     throw InputError(path.string() + ": the file lists no pieces; give one of the .vtu files");
   return files;
+}
+
+bool is_empty_vtu(const std::filesystem::path& path) {
+  // Only files of empty pieces are small: others need not be read twice.
+  constexpr std::uintmax_t most = std::uintmax_t{1} << 20;
+  if (std::filesystem::file_size(path) > most) return false;
+  const std::string content = read_whole_file(path);
+  XmlTags tags(path.string(), content);
+  bool has_piece = false;
+  while (tags.next() && tags.tag().name != "AppendedData") {
+    if (!tags.tag().begins || tags.tag().name != "Piece") continue;
+    if (tags.tag().attribute("NumberOfPoints") != "0") return false;
+    has_piece = true;
+  }
+  return has_piece;
 }
 
 MeshParts read_vtu(const std::filesystem::path& path, const MeshReadOptions& options) {

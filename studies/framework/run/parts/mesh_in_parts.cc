@@ -12,8 +12,7 @@ namespace {
 
 /// Returns the digest of the digests of all ranks, one rank's after the other's.
 std::string digest_of(const Ranks& ranks, const std::string& digests) {
-  const auto all = ranks.gather_all(std::as_bytes(std::span(digests)));
-  return sha256({reinterpret_cast<const char*>(all.data()), all.size()});
+  return sha256(ranks.gather_all(digests));
 }
 
 /// Reads pieces as a mesh of the study's dimension.
