@@ -4,8 +4,8 @@
 
     make_reference.py SOURCE PROGRAM WORK [--compare | --program-of COMMIT] [STUDY...]
 
-All studies run at the scale `paper`, except the gear on the published meshes, and some collections, which run at
-their default scale. The script resumes after an interruption: it skips studies whose reference is of this commit, and an interrupted study
+All studies run at the scale `paper`, except the gear on the published meshes, some collections, which run at
+their default scale, and those of OTHER_SCALES. The script resumes after an interruption: it skips studies whose reference is of this commit, and an interrupted study
 resumes. With --compare, references do not change. The script then records in results/reference/again.csv whether this
 commit gives the same numbers; exit code 1 means that numbers differ. With --program-of nothing is run. The script then
 records which references were made by a program with the same sources as that commit.
@@ -36,6 +36,7 @@ KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv")
 TABLES = ("*.md", "*.csv")  # tables of collections: they need iterations.csv and metrics.csv, which are too large to keep
 REASONS = "reasons/"  # studies that test reasons: reasons/NAME
 PUBLISHED = (*SETS, "gear", "energy", "reasons/gear-converged", "reasons/gear-mesquite", "reasons/gear-rounding")  # studies on the published meshes
+OTHER_SCALES = {"volume-huge": ("volume", "huge")}  # references of a study at another scale than `paper`
 SCALE = "subsection scale paper"
 SOURCES = ("*.cc", "*.h", "cmake", "CMakeLists.txt", "CMakePresets.json", ":!*/tests/*", ":!*/bench/*")  # of the program
 UNKNOWN_SECONDS = 1e9  # studies without a reference run last
@@ -73,8 +74,9 @@ def study_files(path):
 def known_studies(source):
     """Returns the files of the built-in studies and of studies that test reasons, by name."""
     studies = source / "studies"
-    return {**{path.stem: path for path in studies.glob("catalogue/*/*.prm")},
-            **{REASONS + path.stem: path for path in (studies / REASONS).glob("*.prm")}}
+    built_in = {path.stem: path for path in studies.glob("catalogue/*/*.prm")}
+    return {**built_in, **{REASONS + path.stem: path for path in (studies / REASONS).glob("*.prm")},
+            **{name: built_in[study] for name, (study, _) in OTHER_SCALES.items() if study in built_in}}
 
 
 def has_paper_scale(path):
@@ -86,6 +88,8 @@ def options(study):
     """Returns the options of a study's run for the reference."""
     if study in PUBLISHED:
         return ["--published", "--no-figures"]
+    if study in OTHER_SCALES:
+        return ["--scale", OTHER_SCALES[study][1], "--no-figures"]
     scale = [] if study in COLLECTIONS_AS_THEY_ARE or study.startswith(REASONS) else ["--scale", "paper"]
     return [*scale, "--no-figures"]
 
@@ -226,7 +230,7 @@ def main():
         if not is_done(results, commit):
             found = provenance(results)
             other = ["--force"] if found and not made_by(found, commit) else []
-            file = known_studies(words.source)[study] if study.startswith(REASONS) else study
+            file = known_studies(words.source)[study] if study.startswith(REASONS) else OTHER_SCALES.get(study, [study])[0]
             code = subprocess.run([words.program, "study", file, *options(study), "--out", results, *other],
                                   check=False).returncode
             if code != 0:

@@ -21,5 +21,6 @@ def blocks():
         docs / "explanation" / "reducing-the-error-tables.md": moving_nodes.blocks(reference()),
         data_folder() / "paper" / "paper.md": {"agreement": of_thesis["agreement"], "gear": paper.gear(reference()),
                                                "findings": answer.in_short(found)},
+        docs / "explanation" / "parts-of-a-mesh.md": {"huge": sizes.huge(reference())},
         docs / "how-to" / "restart-and-mpi.md": {"largest": sizes.largest(reference())},
     }
