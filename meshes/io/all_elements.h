@@ -108,4 +108,27 @@ class AllElements {
   mutable std::vector<NodeIndex> row_;
 };
 
+/// The numbers that all elements get in a file: those of the file that the mesh comes from.
+/// Elements other than cells follow the cells, unless each of them has a number.
+class ElementNumbers {
+ public:
+  ElementNumbers(const AllElements& elements, const MeshLabels& labels)
+      : elements_(elements), cell_ids_(labels.cell_ids) {
+    for (std::size_t e = 0; e < elements.n_cells(); ++e) last_cell_ = std::max(last_cell_, of(e));
+    for (std::size_t e = elements.n_cells(); e < elements.size(); ++e)
+      all_have_one_ = all_have_one_ && elements.id(e) != 0;
+  }
+
+  std::size_t of(std::size_t e) const {
+    if (e < elements_.n_cells()) return cell_ids_.empty() ? e + 1 : cell_ids_[e];
+    return all_have_one_ ? elements_.id(e) : last_cell_ + 1 + e - elements_.n_cells();
+  }
+
+ private:
+  const AllElements& elements_;
+  const std::vector<std::size_t>& cell_ids_;
+  std::size_t last_cell_ = 0;
+  bool all_have_one_ = true;
+};
+
 }  // namespace smoothfem

@@ -33,15 +33,20 @@ ElementNodes selected_nodes(const ElementList& elements, std::span<const std::si
 
 namespace {
 
+/// True if numbers are 1, 2, 3, ...
+bool are_plain(const std::vector<std::size_t>& ids) {
+  std::size_t next = 1;
+  return std::all_of(ids.begin(), ids.end(), [&](std::size_t id) { return id == next++; });
+}
+
 /// Returns the file's numbers if they differ from the order; otherwise nothing.
 std::vector<std::size_t> worth_keeping(std::vector<std::size_t> ids) {
-  bool plain = true, ascending = true;
+  if (are_plain(ids)) return {};
+  bool ascending = true;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (ids[i] == 0) return {};
-    plain = plain && ids[i] == i + 1;
     ascending = ascending && (i == 0 || ids[i] > ids[i - 1]);
   }
-  if (plain) return {};
   if (ascending) return ids;
   auto sorted = ids;
   std::sort(sorted.begin(), sorted.end());
@@ -65,6 +70,7 @@ class LabelParts {
     const auto is_set = [](int tag) { return tag != 0; };
     if (std::any_of(cells.tags.begin(), cells.tags.end(), is_set))
       labels_.cell_tags = std::move(cells.tags);
+    labels_.has_plain_cell_ids = !cells.ids.empty() && are_plain(cells.ids);
     labels_.cell_ids = worth_keeping(std::move(cells.ids));
     labels_.node_ids = worth_keeping(std::move(parts_.node_ids));
     content_.cell_entities = std::move(cells.entities);

@@ -17,11 +17,10 @@ namespace {
 template <int dim>
 std::string cells_text(const Mesh<dim>& mesh, const std::vector<CellIndex>& cells) {
   constexpr std::size_t n_named = 5;
-  const auto& ids = mesh.topology().labels().cell_ids;
   std::ostringstream text;
   text << (cells.size() == 1 ? "cell " : "cells ");
   for (std::size_t i = 0; i < std::min(n_named, cells.size()); ++i)
-    text << (i > 0 ? ", " : "") << (ids.empty() ? cells[i] : ids[cells[i]]);
+    text << (i > 0 ? ", " : "") << mesh.topology().labels().cell_number(cells[i]);
   if (cells.size() > n_named) text << ", ...";
   text << (cells.size() == 1 ? " at (" : ", the first at (");
   const Point<dim>& at = mesh.coordinates()[mesh.topology().cell_nodes(cells.front())[0]];

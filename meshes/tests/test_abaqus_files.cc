@@ -80,6 +80,19 @@ TEST_F(AbaqusFiles, IncludesOnlyFilesOfItsFolder) {
   EXPECT_THAT(error("bad.inp"), HasSubstr("bad.inp:2: a coordinate is 'x'"));
 }
 
+TEST_F(AbaqusFiles, FacetsKeepTheNumbersOfAnotherFormat) {
+  const auto path =
+      file_with("a.msh",
+                "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
+                "$EndNodes\n$Elements\n3\n4 1 2 3 1 1 2\n2 1 2 3 1 2 3\n9 2 2 5 1 1 2 3\n"
+                "$EndElements\n");
+  write_mesh(file("b.inp"), read_mesh(path).mesh);
+  const std::string content = content_of(file("b.inp"));
+  EXPECT_THAT(content, HasSubstr("\n4, 1, 2\n"));
+  EXPECT_THAT(content, HasSubstr("\n2, 2, 3\n"));
+  EXPECT_THAT(content, HasSubstr("\n9, 1, 2, 3\n"));
+}
+
 TEST_F(AbaqusFiles, AllSetsOfAnElementComeOut) {
   const auto path =
       file_with("a.inp", "*NODE\n" + two_nodes + more_nodes + "*ELEMENT, TYPE=CPS4, ELSET=EALL\n" +

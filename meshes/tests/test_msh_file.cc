@@ -261,6 +261,21 @@ TEST_F(Msh, ReadsClockwiseCellsThatRequireValidNames) {
               ::testing::AllOf(StartsWith(path.string() + ":16: "), HasSubstr("clockwise")));
 }
 
+/// Plain numbers are not kept, but messages have them.
+TEST_F(Msh, MessagesNumberCellsAsTheFileDoes) {
+  const auto numbers = [&](const std::string& first, const std::string& second) {
+    std::string content = square("9 0 1 0", second + " 2 2 1 1 2 7 9");
+    content.replace(content.find("10 15 2"), 2, "3");
+    content.replace(content.find("11 2 2"), 2, first);
+    const PlanarFile read = read_planar(file_with("a.msh", content));
+    const MeshLabels& labels = read.mesh.topology().labels();
+    return std::vector{labels.cell_number(0), labels.cell_number(1)};
+  };
+  EXPECT_THAT(numbers("1", "2"), ::testing::ElementsAre(1, 2));
+  EXPECT_THAT(numbers("11", "12"), ::testing::ElementsAre(11, 12));
+  EXPECT_EQ(test::grid_mesh(1, test::GridCells::triangles).topology().labels().cell_number(0), 0u);
+}
+
 struct BadMsh {
   std::string name, content, message;
   friend void PrintTo(const BadMsh& parameter, std::ostream* out) { *out << parameter.name; }

@@ -137,10 +137,16 @@ struct MeshLabels {
   std::vector<int> facet_tags;       ///< physical tag of each facet, never 0
   std::map<std::pair<int, int>, std::string> names;  ///< (dimension, tag) -> physical name
   std::vector<std::size_t> node_ids;  ///< the file's number of each node; empty if it has none
-  std::vector<std::size_t> cell_ids;  ///< the file's number of each cell; empty if it has none
+  std::vector<std::size_t> cell_ids;  ///< the file's number of each cell; empty if they are plain
+  bool has_plain_cell_ids = false;    ///< the file's numbers of cells are 1, 2, 3, ...
   std::shared_ptr<const FileContent> content{};   ///< null if the file says nothing else
   std::shared_ptr<const MidsideNodes> midside{};  ///< null if all elements are linear
   std::shared_ptr<const MeshPart> part{};         ///< null if this is the whole mesh
+
+  /// Returns the number of a cell for messages: the file's, otherwise the index.
+  std::size_t cell_number(CellIndex cell) const {
+    return cell_ids.empty() ? std::size_t{cell} + has_plain_cell_ids : cell_ids[cell];
+  }
 
   /// Does not compare the content.
   bool operator==(const MeshLabels& other) const {

@@ -108,12 +108,10 @@ std::shared_ptr<const CellTargets<dim>> targets_of(const Mesh<dim>& reference, T
       corners.push_back(reference.coordinates()[i]);
     const auto map = size_of<dim>(corners) > 0.0 ? target_of<dim>(corners, kind)
                                                  : CellTargets<dim>::Matrix::Zero();
-    if (!map.allFinite() || !(map.determinant() > 0.0)) {
-      const auto& ids = reference.topology().labels().cell_ids;
-      throw InputError("cell " + std::to_string(ids.empty() ? c : ids[c]) +
+    if (!map.allFinite() || !(map.determinant() > 0.0))
+      throw InputError("cell " + std::to_string(reference.topology().labels().cell_number(c)) +
                        " is invalid, so that it cannot be a target; repair the mesh (" +
                        option_text("untangle") + ")");
-    }
     maps.push_back(map);
   }
   return std::make_shared<const CellTargets<dim>>(maps, size_bound);

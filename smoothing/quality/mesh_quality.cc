@@ -268,10 +268,9 @@ void require_valid(const Mesh<dim, spacedim>& mesh, const std::string& path,
   }
   message << invalid.size() << " of " << mesh.n_cells()
           << (invalid.size() == 1 ? " cells is invalid: " : " cells are invalid: ");
-  const auto& ids = topology.labels().cell_ids;
   for (std::size_t i = 0; i < std::min(n_named, invalid.size()); ++i) {
     const CellIndex c = invalid[i];
-    message << (i > 0 ? ", " : "") << "cell " << (ids.empty() ? c : ids[c]) << " at ";
+    message << (i > 0 ? ", " : "") << "cell " << topology.labels().cell_number(c) << " at ";
     print_point<spacedim>(message, mesh.coordinates()[topology.cell_nodes(c)[0]]);
     message << " is " << (signed_cell_size(mesh, c) < 0.0 ? W::inverted : W::invalid);
   }

@@ -227,11 +227,10 @@ void mark_bad_cells(const QualityArguments& arguments, const Mesh<dim, spacedim>
   if (arguments.json) return;
   std::printf("%zu cells are invalid or below %g; marked by the cell field 'bad' in %s\n",
               bad.size(), arguments.below, arguments.mark.c_str());
-  const auto& ids = mesh.topology().labels().cell_ids;
   for (std::size_t i = 0; i < std::min(n_listed, bad.size()); ++i) {
     const CellIndex c = bad[i];
-    std::printf("  cell %zu  mean ratio %.4g  at",
-                static_cast<std::size_t>(ids.empty() ? c : ids[c]), cell_quality[c]);
+    std::printf("  cell %zu  mean ratio %.4g  at", mesh.topology().labels().cell_number(c),
+                cell_quality[c]);
     const auto nodes = mesh.topology().cell_nodes(c);
     Point<spacedim> centre = Point<spacedim>::Zero();
     for (const NodeIndex node : nodes)

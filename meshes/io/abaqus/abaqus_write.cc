@@ -11,6 +11,7 @@
 
 #include "meshes/io/abaqus/abaqus_file.h"
 #include "meshes/io/abaqus/abaqus_lines.h"
+#include "meshes/io/all_elements.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_assembly.h"
 #include "smoothing/base/input_error.h"
@@ -138,7 +139,11 @@ std::string set_name(const std::pair<int, int>& key, const Names& names) {
 
 class AbaqusWriter {
  public:
-  explicit AbaqusWriter(const MeshView& mesh) : mesh_(mesh), labels_(mesh.topology().labels()) {}
+  explicit AbaqusWriter(const MeshView& mesh)
+      : mesh_(mesh),
+        labels_(mesh.topology().labels()),
+        elements_(mesh),
+        numbers_(elements_, labels_) {}
 
   std::string text() {
     text_.append(abaqus_first_comment).append("\n");
@@ -147,17 +152,16 @@ class AbaqusWriter {
     write_nodes();
     const Topology& topology = mesh_.topology();
     const int dim = mesh_.dimension();
-    std::size_t first = 1;
     const MidsideNodes* midside = topology.midside();
+    const auto cell_label = [&](std::size_t c) { return numbers_.of(c); };
+    const auto facet_label = [&](std::size_t f) { return numbers_.of(elements_.n_cells() + f); };
     write_elements(dim, topology.cells(), midside ? &midside->of_cells : nullptr, labels_.cell_tags,
-                   [&](std::size_t c) { return cell_label(c); });
-    for (std::size_t c = 0; c < topology.n_cells(); ++c) first = std::max(first, cell_label(c) + 1);
+                   cell_label);
     write_elements(dim - 1, labels_.facets, midside ? &midside->of_facets : nullptr,
-                   labels_.facet_tags, [&](std::size_t f) { return first + f; });
+                   labels_.facet_tags, facet_label);
     if (const FileContent* content = mesh_.content()) {
-      write_further_sets(dim, content->cell_entities, [&](std::size_t c) { return cell_label(c); });
-      write_further_sets(dim - 1, content->facet_entities,
-                         [&](std::size_t f) { return first + f; });
+      write_further_sets(dim, content->cell_entities, cell_label);
+      write_further_sets(dim - 1, content->facet_entities, facet_label);
     }
     write_fixed();
     text_.append(abaqus_last_comment).append("\n");
@@ -167,9 +171,6 @@ class AbaqusWriter {
  private:
   std::size_t node_label(std::size_t i) const {
     return labels_.node_ids.empty() ? i + 1 : labels_.node_ids[i];
-  }
-  std::size_t cell_label(std::size_t c) const {
-    return labels_.cell_ids.empty() ? c + 1 : labels_.cell_ids[c];
   }
 
   void write_nodes() {
@@ -253,6 +254,8 @@ class AbaqusWriter {
 
   const MeshView& mesh_;
   const MeshLabels& labels_;
+  AllElements elements_;
+  ElementNumbers numbers_;
   std::string text_;
 };
 

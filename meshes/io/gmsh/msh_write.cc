@@ -31,16 +31,12 @@ class MshWriter {
         version_(version),
         out_(out),
         elements_(mesh),
+        numbers_(elements_, labels_),
         entities_(msh_entities(mesh, elements_)) {
-    for (std::size_t e = 0; e < elements_.n_cells(); ++e)
-      last_number_ = std::max(last_number_, element_number(e));
-    for (std::size_t e = elements_.n_cells(); e < elements_.size(); ++e) {
-      has_all_ids_ = has_all_ids_ && elements_.id(e) != 0;
-      if (has_all_ids_) last_number_ = std::max(last_number_, elements_.id(e));
-    }
+    for (std::size_t e = 0; e < elements_.size(); ++e)
+      last_number_ = std::max(last_number_, numbers_.of(e));
     for (const MshEntity& entity : entities_)
       for (const auto& [type, elements] : entity.by_type) n_elements_ += elements.size();
-    if (!has_all_ids_) last_number_ += elements_.size() - elements_.n_cells();
     keeps_rows_ = version_ == "2.2" && !content_.repeated.empty() && further_numbers_are_free();
   }
 
@@ -70,16 +66,6 @@ class MshWriter {
   std::size_t node_number(NodeIndex node) const {
     return labels_.node_ids.empty() ? std::size_t{node} + 1 : labels_.node_ids[node];
   }
-  /// Elements other than cells are numbered after the cells, unless all have a number.
-  std::size_t element_number(std::size_t e) const {
-    if (e < elements_.n_cells()) return labels_.cell_ids.empty() ? e + 1 : labels_.cell_ids[e];
-    if (has_all_ids_) return elements_.id(e);
-    return last_cell() + 1 + e - elements_.n_cells();
-  }
-  std::size_t last_cell() const {
-    const auto& ids = labels_.cell_ids;
-    return ids.empty() ? mesh_.n_cells() : *std::max_element(ids.begin(), ids.end());
-  }
 
   /// True if no element has a number of the further rows of the file.
   bool further_numbers_are_free() {
@@ -87,7 +73,7 @@ class MshWriter {
     for (const auto& [element, rows] : content_.repeated)
       for (const RepeatedElement& row : rows) numbers.insert(row.id);
     for (std::size_t e = 0; e < elements_.size(); ++e)
-      if (numbers.contains(element_number(e))) return false;
+      if (numbers.contains(numbers_.of(e))) return false;
     last_of_file_ = *numbers.rbegin();
     return true;
   }
@@ -95,7 +81,7 @@ class MshWriter {
   /// Returns the file's row of an element for a group beyond the first; null if it has none.
   const RepeatedElement* row_of_file(std::size_t e, int group) const {
     if (!keeps_rows_) return nullptr;
-    const auto found = content_.repeated.find({elements_.dimension(e), element_number(e)});
+    const auto found = content_.repeated.find({elements_.dimension(e), numbers_.of(e)});
     if (found == content_.repeated.end()) return nullptr;
     for (const RepeatedElement& row : found->second)
       if (row.group == group) return &row;
@@ -146,7 +132,7 @@ class MshWriter {
         if (row->values.size() >= first + field.n_components && !std::isnan(row->values[first]))
           further.emplace_back(row->id, row->values.data() + first);
       write_field(
-          "ElementData", field, [&](std::size_t e) { return element_number(e); }, further);
+          "ElementData", field, [&](std::size_t e) { return numbers_.of(e); }, further);
       first += field.n_components;
     }
   }
@@ -215,7 +201,7 @@ class MshWriter {
         for (const std::size_t e : elements->second)
           for (const int group : groups)
             write_element_2(entity, msh_type(number), e, group,
-                            group == groups.front() ? element_number(e) : number_of(e, group));
+                            group == groups.front() ? numbers_.of(e) : number_of(e, group));
       }
     end_section("Elements");
   }
@@ -350,7 +336,7 @@ class MshWriter {
     out_.text("$Elements\n");
     std::size_t n_blocks = 0, first = std::numeric_limits<std::size_t>::max();
     for (const MshEntity& entity : entities_) n_blocks += entity.by_type.size();
-    for (std::size_t e = 0; e < elements_.size(); ++e) first = std::min(first, element_number(e));
+    for (std::size_t e = 0; e < elements_.size(); ++e) first = std::min(first, numbers_.of(e));
     out_.number(n_blocks);
     out_.number(n_elements_);
     out_.number(first);
@@ -362,7 +348,7 @@ class MshWriter {
         out_.number(elements.size());
         out_.end_record();
         for (const std::size_t e : elements) {
-          out_.number(element_number(e));
+          out_.number(numbers_.of(e));
           for (const NodeIndex node : elements_.row(e, msh_type(type).order))
             out_.number(node_number(node));
           out_.end_record(true);
@@ -400,8 +386,8 @@ class MshWriter {
   std::string version_;
   MshOutput& out_;
   AllElements elements_;
+  ElementNumbers numbers_;
   std::vector<MshEntity> entities_;
-  bool has_all_ids_ = true;
   std::size_t last_number_ = 0, n_elements_ = 0;
   bool keeps_rows_ = false;       ///< further rows have the numbers and data of the file
   std::size_t last_of_file_ = 0;  ///< largest number of these rows
