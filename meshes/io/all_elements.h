@@ -108,12 +108,14 @@ class AllElements {
   mutable std::vector<NodeIndex> row_;
 };
 
-/// The numbers that all elements get in a file: those of the file that the mesh comes from.
-/// Elements other than cells follow the cells, unless each of them has a number.
+/// The numbers that all elements get in a file: those of the file that the mesh comes from if it
+/// numbers all. Otherwise cells keep theirs, and the other elements follow.
 class ElementNumbers {
  public:
   ElementNumbers(const AllElements& elements, const MeshLabels& labels)
-      : elements_(elements), cell_ids_(labels.cell_ids) {
+      : elements_(elements),
+        cell_ids_(labels.cell_ids),
+        all_have_one_(labels.has_plain_cell_ids || !labels.cell_ids.empty()) {
     for (std::size_t e = 0; e < elements.n_cells(); ++e) last_cell_ = std::max(last_cell_, of(e));
     for (std::size_t e = elements.n_cells(); e < elements.size(); ++e)
       all_have_one_ = all_have_one_ && elements.id(e) != 0;
@@ -128,7 +130,7 @@ class ElementNumbers {
   const AllElements& elements_;
   const std::vector<std::size_t>& cell_ids_;
   std::size_t last_cell_ = 0;
-  bool all_have_one_ = true;
+  bool all_have_one_;
 };
 
 }  // namespace smoothfem

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "meshes/io/losses.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/mesh/interfaces.h"
+#include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem {
 namespace {
@@ -91,6 +93,21 @@ TEST_F(AbaqusFiles, FacetsKeepTheNumbersOfAnotherFormat) {
   EXPECT_THAT(content, HasSubstr("\n4, 1, 2\n"));
   EXPECT_THAT(content, HasSubstr("\n2, 2, 3\n"));
   EXPECT_THAT(content, HasSubstr("\n9, 1, 2, 3\n"));
+}
+
+TEST_F(AbaqusFiles, FacetsFollowCellsWithoutNumbers) {
+  const PlanarMesh grid = test::grid_mesh(1, test::GridCells::triangles);
+  FileContent content;
+  content.facet_ids = {1};
+  MeshLabels labels;
+  labels.facets.append(std::vector<NodeIndex>{0, 1});
+  labels.facet_tags = {7};
+  labels.content = std::make_shared<const FileContent>(std::move(content));
+  const PlanarMesh mesh(std::make_shared<const Topology>(2, grid.n_nodes(), grid.topology().cells(),
+                                                         std::nullopt, std::move(labels)),
+                        grid.copied_coordinates());
+  write_mesh(file("a.inp"), mesh);
+  EXPECT_THAT(content_of(file("a.inp")), HasSubstr("\n3, 1, 2\n"));
 }
 
 TEST_F(AbaqusFiles, AllSetsOfAnElementComeOut) {

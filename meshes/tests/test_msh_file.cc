@@ -2,6 +2,7 @@
 #include "meshes/io/mesh_file.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem {
 namespace {
