@@ -120,16 +120,17 @@ std::size_t write_box(const Ranks& ranks, const BoxParameters& parameters, std::
   n_pieces = std::min(n_pieces, n_layers);
   const auto first_layer = [&](std::size_t piece) { return n_layers * piece / n_pieces; };
   std::size_t n_cells = 0;
+  const NewPieces new_pieces(out, ranks.is_root());
   ranks.together([&] {
     const std::size_t end = first_piece_of(ranks, ranks.rank() + 1, n_pieces);
     for (std::size_t p = first_piece_of(ranks, ranks.rank(), n_pieces); p < end; ++p) {
       const auto mesh = box_layers<dim>(parameters, first_layer(p), first_layer(p + 1));
       n_cells += mesh.n_cells();
-      write_mesh(piece_file(out, p), mesh);
+      write_mesh(new_pieces.file(p), mesh);
     }
   });
   ranks.together([&] {
-    if (ranks.is_root()) write_piece_list(out, n_pieces);
+    if (ranks.is_root()) new_pieces.finish(n_pieces);
   });
   return ranks.sum(n_cells);
 }

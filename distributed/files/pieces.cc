@@ -67,6 +67,9 @@ std::array<std::string, without_array.size()> arrays_of(const MeshParts& parts, 
   return names;
 }
 
+/// The folder of pieces that are not complete, in the folder of the result's pieces.
+constexpr std::string_view unfinished = ".new";
+
 /// Returns "a.vtu has", "a.vtu and another piece have" or "a.vtu and 2 other pieces have".
 std::string some_have(const std::filesystem::path& first, std::size_t n) {
   const std::string name = first.filename().string();
@@ -231,18 +234,26 @@ void require_finite(const std::filesystem::path& path, const MeshParts& parts) {
       refuse_coordinate(path, parts.node_ids.empty() ? i : parts.node_ids[i]);
 }
 
-/// As above, of a mesh. Collective.
+/// As above, of a mesh that is read in blocks. Collective.
 template <int dim>
-void require_finite(const Ranks& ranks, const std::filesystem::path& path,
+void require_finite(const Ranks& ranks, const std::filesystem::path& path, FileBlocks& blocks,
                     ScatteredMesh<dim>& mesh) {
-  const auto& entries = mesh.nodes.entries();
-  const auto bad = std::find_if(entries.begin(), entries.end(),
-                                [](const auto& entry) { return !entry.point().allFinite(); });
+  const auto bad_node = [](ScatteredMesh<dim>& of_rank) -> std::optional<std::size_t> {
+    const auto& entries = of_rank.nodes.entries();
+    const auto bad = std::find_if(entries.begin(), entries.end(),
+                                  [](const auto& entry) { return !entry.point().allFinite(); });
+    if (bad == entries.end()) return {};
+    return static_cast<std::size_t>(bad - entries.begin());
+  };
+  if (!ranks.any(bad_node(mesh).has_value())) return;
+  auto with_numbers = blocks.read(ReadFor::examination);
+  auto& seen = std::get<ScatteredMesh<dim>>(with_numbers);
   double first = std::numeric_limits<double>::infinity();
-  if (bad != entries.end())
-    first = static_cast<double>(mesh.nodes.first()) + static_cast<double>(bad - entries.begin());
+  if (const auto bad = bad_node(seen))
+    first = static_cast<double>(seen.node_ids ? seen.node_ids->entries()[*bad]
+                                              : seen.nodes.first() + *bad);
   ranks.min({&first, 1});
-  if (std::isfinite(first)) refuse_coordinate(path, static_cast<std::size_t>(first));
+  refuse_coordinate(path, static_cast<std::size_t>(first));
 }
 
 /// True if the largest number of a node is so large that a table of all numbers would be wasteful.
@@ -300,6 +311,12 @@ void number_by_coordinates(const Ranks& ranks, std::vector<ReadPiece>& pieces) {
   }
 }
 
+/// Coordinates that are not numbers are equal: they are reported elsewhere.
+template <int dim>
+bool is_same_place(const Point<dim>& a, const Point<dim>& b) {
+  return ((a.array() == b.array()) || (a.array().isNaN() && b.array().isNaN())).all();
+}
+
 template <int dim>
 ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& path,
                              const std::vector<std::vector<GlobalIndex>>& numbers,
@@ -350,15 +367,15 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& pa
   }
   std::size_t n_torn = 0;
   mesh.nodes.give(given, entries, [&](NodeEntry<dim>& kept, const NodeEntry<dim>& node, int) {
-    n_torn += kept.owner == NodeEntry<dim>::given && kept.x != node.x;
+    n_torn += kept.owner == NodeEntry<dim>::given && !is_same_place(kept.point(), node.point());
     kept.x = node.x;
     kept.reasons |= node.reasons;
     kept.owner = NodeEntry<dim>::given;
   });
   if (const std::size_t n = ranks.sum(n_torn); n > 0)
-    throw InputError(path.string() + ": " + std::to_string(n) +
-                     " nodes have other coordinates in one piece than in another; write the pieces "
-                     "anew");
+    throw InputError(path.string() + ": " +
+                     (n == 1 ? "1 node has" : std::to_string(n) + " nodes have") +
+                     " other coordinates in one piece than in another; write the pieces anew");
   return mesh;
 }
 
@@ -449,7 +466,7 @@ void Pieces::leave_out_empty_pieces() {
   std::string is_empty;  // a character for each piece
   ranks_.together([&] {
     for (std::size_t p = first_piece(); p < last_piece(); ++p)
-      is_empty += is_empty_vtu(files_[p]) ? 'y' : 'n';
+      is_empty += has_no_cells(files_[p]) ? 'y' : 'n';
   });
   is_empty = ranks_.gather_all(is_empty);
   const std::size_t first = is_empty.find('y');
@@ -458,9 +475,9 @@ void Pieces::leave_out_empty_pieces() {
   std::vector<std::filesystem::path> others;
   for (std::size_t p = 0; p < files_.size(); ++p)
     if (is_empty[p] == 'n') others.push_back(files_[p]);
-  if (others.empty()) throw InputError(path_.string() + ": its pieces have no points");
+  if (others.empty()) throw InputError(path_.string() + ": its pieces have no cells");
   notes_.push_back(some_have(empty, files_.size() - others.size()) +
-                   " no points; the mesh is read from the other pieces");
+                   " no cells; the mesh is read from the other pieces");
   files_ = std::move(others);
 }
 
@@ -520,7 +537,7 @@ std::variant<ScatteredMesh<2>, ScatteredMesh<3>> Pieces::read(ReadFor purpose) c
     if (blocks_->obstacle().empty()) {
       auto mesh = blocks_->read(purpose);
       if (purpose == ReadFor::smoothing)
-        std::visit([&](auto& of_dim) { require_finite(ranks_, path_, of_dim); }, mesh);
+        std::visit([&](auto& of_dim) { require_finite(ranks_, path_, *blocks_, of_dim); }, mesh);
       return mesh;
     }
     if (ranks_.size() > 1)
@@ -613,6 +630,8 @@ void Pieces::write(const std::filesystem::path& out,
                    const NodeDirectory<NodeEntry<dim>>& directory) const {
   if (kind_ == Kind::gmsh) return write_gmsh_parts(out, directory);
   if (blocks_ && out.extension() == path_.extension()) return blocks_->write(out, directory);
+  std::optional<NewPieces> new_pieces;
+  if (kind_ == Kind::vtk) new_pieces.emplace(out, ranks_.is_root());
   if (blocks_) {
     nodes_.assign(1, {});
     if (ranks_.is_root()) nodes_.front().resize(directory.n());
@@ -623,15 +642,14 @@ void Pieces::write(const std::filesystem::path& out,
                                        [](const NodeEntry<dim>& entry) { return entry; });
     ranks_.together([&] {
       if (!p) return;
-      if (kind_ == Kind::vtk)
-        write_piece<dim>(files_[*p], parts(*p), entries, piece_file(out, *p));
+      if (new_pieces)
+        write_piece<dim>(files_[*p], parts(*p), entries, new_pieces->file(*p));
       else
         losses_ = write_whole<dim>(files_[*p], entries, out);
     });
   });
   ranks_.together([&] {
-    if (!ranks_.is_root() || kind_ != Kind::vtk) return;
-    write_piece_list(out, files_.size());
+    if (ranks_.is_root() && new_pieces) new_pieces->finish(files_.size());
   });
 }
 
@@ -726,6 +744,35 @@ void write_piece_list(const std::filesystem::path& out, std::size_t n_pieces) {
          << "\"/>\n";
   list << "  </PUnstructuredGrid>\n</VTKFile>\n";
   write_atomically(out, list.str());
+}
+
+NewPieces::NewPieces(std::filesystem::path out, bool is_root)
+    : out_(std::move(out)),
+      folder_(piece_file(out_, 0).parent_path()),
+      has_folder_(std::filesystem::exists(folder_)),
+      is_root_(is_root) {}
+
+NewPieces::~NewPieces() {
+  if (!is_root_) return;
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_ / unfinished, ignored);
+  if (!has_folder_) std::filesystem::remove(folder_, ignored);  // if it is empty
+}
+
+std::filesystem::path NewPieces::file(std::size_t piece) const {
+  return folder_ / unfinished / piece_file(out_, piece).filename();
+}
+
+void NewPieces::finish(std::size_t n_pieces) const {
+  try {
+    std::filesystem::remove(out_);  // an interruption leaves no list of old and new pieces
+    for (std::size_t p = 0; p < n_pieces; ++p)
+      std::filesystem::rename(file(p), piece_file(out_, p));
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw InputError(out_.string() +
+                     ": a file of the earlier mesh cannot be replaced: " + error.code().message());
+  }
+  write_piece_list(out_, n_pieces);
 }
 
 template void Pieces::write(const std::filesystem::path&, const NodeDirectory<NodeEntry<2>>&) const;

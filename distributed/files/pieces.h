@@ -35,7 +35,7 @@ std::size_t first_piece_of(const Ranks& ranks, int rank, std::size_t n_pieces);
 /// rank.
 class Pieces {
  public:
-  /// Finds the files; pieces without points are left out. Collective. Throws InputError
+  /// Finds the files; pieces without cells are left out. Collective. Throws InputError
   /// "path:line: ..." on all ranks, also if a file of Gmsh is missing.
   Pieces(const Ranks& ranks, const std::filesystem::path& path);
 
@@ -116,6 +116,27 @@ std::vector<std::int64_t> cell_numbers(const MeshParts& parts);
 
 /// Writes the file that lists the pieces at piece_file(), and the arrays of the first one.
 void write_piece_list(const std::filesystem::path& out, std::size_t n_pieces);
+
+/// A mesh in pieces while it is written. Pieces replace those of an earlier result only when all
+/// are complete; until then they lie in a folder of their own, which the destructor removes.
+class NewPieces {
+ public:
+  /// is_root: this rank removes the folder. The others must not write any more then.
+  explicit NewPieces(std::filesystem::path out, bool is_root = true);
+  ~NewPieces();
+  NewPieces(const NewPieces&) = delete;
+  NewPieces& operator=(const NewPieces&) = delete;
+
+  /// Returns where to write a piece.
+  std::filesystem::path file(std::size_t piece) const;
+  /// Moves all pieces to their places and writes the file that lists them, on one rank. Throws
+  /// InputError.
+  void finish(std::size_t n_pieces) const;
+
+ private:
+  std::filesystem::path out_, folder_;
+  bool has_folder_, is_root_;
+};
 
 /// Adds the numbers of nodes or elements in the whole mesh as a field with the role GlobalIds.
 /// A field of the same name is replaced.

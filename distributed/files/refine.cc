@@ -176,6 +176,7 @@ class Refinement {
     collect();
     number_cells();
     number_nodes();
+    const NewPieces new_pieces(out, ranks_.is_root());
     std::size_t first_cell = 0,  // of this rank's cells
         first_facet = n_cells_ + ranks_.exclusive_scan(n_facets_);
     pieces_.in_rounds([&](std::optional<std::size_t> p) {
@@ -202,12 +203,12 @@ class Refinement {
           elements.push_back(static_cast<std::int64_t>(first_facet + f));
         if (!split.origins.empty()) first_cell += split.origins.back() + 1;
         first_facet += n_facets;
-        write_vtu(piece_file(out, *p),
+        write_vtu(new_pieces.file(*p),
                   plain(std::move(split), numbers, of_new, reasons, std::move(elements)));
       });
     });
     ranks_.together([&] {
-      if (ranks_.is_root()) write_piece_list(out, pieces_.files().size());
+      if (ranks_.is_root()) new_pieces.finish(pieces_.files().size());
     });
     return {pieces_.files().size(), n_cells_, on_all_ranks(ranks_, losses_)};
   }

@@ -133,9 +133,10 @@ void write_in_pieces(const Mesh<dim>& mesh, std::size_t n_pieces,
   require_linear(mesh.topology(), "writing a mesh in pieces");
   const std::size_t n = std::min(n_pieces, mesh.n_cells());
   const Splitter<dim> splitter(mesh, bisected_cells(mesh, static_cast<int>(n)));
+  const NewPieces new_pieces(out);
   for (std::size_t p = 0; p < n; ++p)
-    write_mesh(piece_file(out, p), splitter.piece(static_cast<int>(p)));
-  write_piece_list(out, n);
+    write_mesh(new_pieces.file(p), splitter.piece(static_cast<int>(p)));
+  new_pieces.finish(n);
 }
 
 template void write_in_pieces(const Mesh<2>&, std::size_t, const std::filesystem::path&);

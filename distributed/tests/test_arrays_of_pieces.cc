@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces that lack an array of others make another result, and pieces without points are left out.
+// Pieces that lack an array of others make another result, and pieces without cells are left out.
 // The program must say both.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -90,7 +90,7 @@ TEST(ArraysOfPieces, AreTheSameInPiecesOfThisProgram) {
     EXPECT_THAT(content_of(piece_file(out, p)), HasSubstr("physical_tag"));
 }
 
-/// Lists a piece without points before the others, as programs write it for a process without
+/// Lists a piece without cells before the others, as programs write it for a process without
 /// cells.
 void add_empty_piece(const fs::path& list, const std::string& name) {
   all_ranks().on_root([&] {
@@ -116,16 +116,16 @@ TEST(EmptyPieces, AreLeftOutAndNamed) {
   add_empty_piece(list, "empty.vtu");
   const Pieces pieces(all_ranks(), list);
   EXPECT_THAT(pieces.notes(),
-              ElementsAre("empty.vtu has no points; the mesh is read from the other pieces"));
+              ElementsAre("empty.vtu has no cells; the mesh is read from the other pieces"));
   const auto smoothed = test::smooth_pieces<2>(all_ranks(), pieces, out);
   EXPECT_EQ(smoothed.copied_coordinates(), expected.copied_coordinates());
   add_empty_piece(list, "other.vtu");
   for (const auto& notes : all_notes(list))
-    EXPECT_THAT(notes, ElementsAre("other.vtu and another piece have no points; the mesh is read "
+    EXPECT_THAT(notes, ElementsAre("other.vtu and another piece have no cells; the mesh is read "
                                    "from the other pieces"));
 }
 
-TEST(EmptyPieces, OneMustHavePoints) {
+TEST(EmptyPieces, OneMustHaveCells) {
   const Folder folder;
   const fs::path list = folder / "split.pvtu";
   all_ranks().on_root([&] {
@@ -137,7 +137,7 @@ TEST(EmptyPieces, OneMustHavePoints) {
     std::ofstream(list) << text.erase(text.find("<Piece />"), 9);
   });
   EXPECT_THAT([&] { (void)Pieces(all_ranks(), list); },
-              ThrowsMessage<InputError>(HasSubstr("split.pvtu: its pieces have no points")));
+              ThrowsMessage<InputError>(HasSubstr("split.pvtu: its pieces have no cells")));
 }
 
 }  // namespace

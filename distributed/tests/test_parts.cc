@@ -444,9 +444,56 @@ TEST(Parts, CoordinatesThatAreNoNumbersAreRefusedOnAllRanks) {
     write_mesh(folder / "blocks.msh", mesh, {}, {.binary = true});
     write_mesh(folder / "blocks.vtu", mesh);
   });
-  for (const char* name : {"pieces.pvtu", "blocks.msh", "blocks.vtu"})
-    EXPECT_THAT([&] { Pieces(all_ranks(), folder / name).read(); },
-                ThrowsMessage<InputError>(HasSubstr("not a finite number")));
+  for (const auto& [name, node] :
+       {std::pair("pieces.pvtu", "7"), {"blocks.msh", "8"}, {"blocks.vtu", "7"}}) {
+    const auto read = [file = folder / name] { Pieces(all_ranks(), file).read(); };
+    EXPECT_THAT(read, ThrowsMessage<InputError>(HasSubstr("node " + std::string(node) +
+                                                          " has a coordinate that is not")));
+  }
+}
+
+/// A number that is none differs from itself. The examination names the coordinate.
+TEST(Parts, PiecesWithTheSameNodeThatIsNowhereAreNotTorn) {
+  const Folder folder;
+  const BoxParameters parameters{.n = {2, 2, 2}};
+  all_ranks().on_root([&] {
+    const fs::path list = folder / "pieces.pvtu";
+    auto low = box_layers<3>(parameters, 0, 1), high = box_layers<3>(parameters, 1, 2);
+    low.coordinates()[17].x() = high.coordinates()[8].x() =
+        std::numeric_limits<double>::quiet_NaN();
+    write_mesh(piece_file(list, 0), low);
+    write_mesh(piece_file(list, 1), high);
+    write_piece_list(list, 2);
+  });
+  const Pieces pieces(all_ranks(), folder / "pieces.pvtu");
+  EXPECT_NO_THROW(pieces.read(ReadFor::examination));
+}
+
+TEST(Parts, AnEarlierMeshIsReplacedOnlyWhenAllPiecesAreComplete) {
+  const Folder folder;
+  const fs::path list = folder / "pieces.pvtu", piece = piece_file(list, 0);
+  all_ranks().on_root([&] {
+    const auto files = [&] {
+      const fs::directory_iterator in_folder(piece.parent_path());
+      return std::distance(begin(in_folder), end(in_folder));
+    };
+    write_in_pieces(box_mesh(4, 3, 2, BoxCells::tetrahedra), 2, list);
+    const std::string old = content_of(piece);
+    for (const bool is_finished : {false, true}) {
+      {
+        const NewPieces pieces(list);
+        for (const std::size_t p : {0, 1})
+          write_mesh(pieces.file(p), box_mesh(2, 2, 2, BoxCells::tetrahedra));
+        EXPECT_EQ(content_of(piece), old);
+        if (is_finished) pieces.finish(2);
+      }
+      EXPECT_EQ(content_of(piece) == old, !is_finished);
+      EXPECT_TRUE(fs::exists(list));
+      EXPECT_EQ(files(), 2);
+    }
+    { const NewPieces stopped(folder / "none.pvtu"); }
+    EXPECT_FALSE(fs::exists(folder / "none"));
+  });
 }
 
 TEST(Parts, FilesOfTheMeshAreNotReplaced) {

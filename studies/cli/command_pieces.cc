@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -336,6 +337,20 @@ std::vector<std::size_t> counts_of(const std::string& text) {
   return counts;
 }
 
+/// Throws InputError if a box has more cells or nodes than can be numbered.
+void require_countable(const std::string& text, const std::vector<std::size_t>& counts,
+                       bool splits) {
+  double n_cells = splits ? (counts.size() == 3 ? 6.0 : 2.0) : 1.0, n_nodes = 1.0;
+  for (const std::size_t n : counts) {
+    n_cells *= static_cast<double>(n);
+    n_nodes *= static_cast<double>(n) + 1.0;
+  }
+  if (std::max(n_cells, n_nodes) > std::numeric_limits<GlobalIndex>::max())
+    throw InputError("--cells is '" + text +
+                     "', but a mesh can have at most 4294967295 cells and nodes; give smaller "
+                     "numbers");
+}
+
 }  // namespace
 }  // namespace smoothfem
 
@@ -426,6 +441,7 @@ void smoothfem_generate_box(const smoothfem::BoxArguments& arguments) {
         .displacement = arguments.displacement,
         .seed = arguments.seed};
     std::copy(counts.begin(), counts.end(), parameters.n.begin());
+    require_countable(arguments.cells, counts, parameters.splits);
     if (!(arguments.displacement >= 0.0 && arguments.displacement < 1.0 / 6.0))
       throw InputError("--displacement is " + std::to_string(arguments.displacement) +
                        ", but cells stay valid only from 0 to below 1/6");

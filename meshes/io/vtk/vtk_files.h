@@ -30,9 +30,9 @@ MeshParts read_vtu(const std::filesystem::path& path, const MeshReadOptions& opt
 /// there are none, or if they are not in its folder or below.
 std::vector<std::filesystem::path> files_of_pvtu(const std::filesystem::path& path);
 
-/// True if a .vtu file has pieces, but no points. Programs write such a file for each process
+/// True if a small .vtu file has pieces, but no cells. Programs write such a file for each process
 /// without cells.
-bool is_empty_vtu(const std::filesystem::path& path);
+bool has_no_cells(const std::filesystem::path& path);
 
 /// Reads the .vtu files that a .pvtu file lists as one mesh. They must be in its folder or below.
 /// Ghost cells, which another piece has as well, are left out. Nodes on the seams of pieces stay

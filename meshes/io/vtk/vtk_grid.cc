@@ -128,7 +128,10 @@ class GridParts {
 
   MeshParts make() {
     if (grid_.points.empty()) fail("the file has no points");
-    if (cells_.size() == 0) fail("the file has no cells; it is not a mesh or is truncated");
+    if (cells_.size() == 0)
+      fail(grid_.has_unused_points
+               ? "all cells are ghosts, which another piece has; remove the file from the list"
+               : "the file has no cells; it is not a mesh or is truncated");
     if (cells_.types.size() != cells_.size())
       fail("the file has " + std::to_string(cells_.size()) + " cells but " +
            std::to_string(cells_.types.size()) + " cell types; it is truncated or damaged");

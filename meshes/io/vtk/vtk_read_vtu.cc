@@ -329,8 +329,8 @@ std::vector<std::filesystem::path> files_of_pvtu(const std::filesystem::path& pa
   return files;
 }
 
-bool is_empty_vtu(const std::filesystem::path& path) {
-  // Only files of empty pieces are small: others need not be read twice.
+bool has_no_cells(const std::filesystem::path& path) {
+  // Large files need not be read twice.
   constexpr std::uintmax_t most = std::uintmax_t{1} << 20;
   if (std::filesystem::file_size(path) > most) return false;
   const std::string content = read_whole_file(path);
@@ -338,7 +338,7 @@ bool is_empty_vtu(const std::filesystem::path& path) {
   bool has_piece = false;
   while (tags.next() && tags.tag().name != "AppendedData") {
     if (!tags.tag().begins || tags.tag().name != "Piece") continue;
-    if (tags.tag().attribute("NumberOfPoints") != "0") return false;
+    if (tags.tag().attribute("NumberOfCells") != "0") return false;
     has_piece = true;
   }
   return has_piece;
