@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "meshes/doctor/finding.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/gmsh/msh_parts.h"
 #include "meshes/io/line_reader.h"
@@ -66,9 +67,6 @@ std::array<std::string, without_array.size()> arrays_of(const MeshParts& parts, 
   if (parts.fixed) names[fixed_array] = "fixed";
   return names;
 }
-
-/// The folder of pieces that are not complete, in the folder of the result's pieces.
-constexpr std::string_view unfinished = ".new";
 
 /// Returns "a.vtu has", "a.vtu and another piece have" or "a.vtu and 2 other pieces have".
 std::string some_have(const std::filesystem::path& first, std::size_t n) {
@@ -373,8 +371,7 @@ ScatteredMesh<dim> scattered(const Ranks& ranks, const std::filesystem::path& pa
     kept.owner = NodeEntry<dim>::given;
   });
   if (const std::size_t n = ranks.sum(n_torn); n > 0)
-    throw InputError(path.string() + ": " +
-                     (n == 1 ? "1 node has" : std::to_string(n) + " nodes have") +
+    throw InputError(path.string() + ": " + count_of(n, "node") + (n == 1 ? " has" : " have") +
                      " other coordinates in one piece than in another; write the pieces anew");
   return mesh;
 }
@@ -431,6 +428,7 @@ std::vector<std::int64_t> cell_numbers(const MeshParts& parts) {
 }
 
 Pieces::Pieces(const Ranks& ranks, const std::filesystem::path& path) : ranks_(ranks), path_(path) {
+  if (path == "-") throw InputError("standard input cannot be read in parts; give a file");
   files_ = {path};
   if (is_list(path)) {
     kind_ = Kind::vtk;
@@ -748,19 +746,19 @@ void write_piece_list(const std::filesystem::path& out, std::size_t n_pieces) {
 
 NewPieces::NewPieces(std::filesystem::path out, bool is_root)
     : out_(std::move(out)),
-      folder_(piece_file(out_, 0).parent_path()),
-      has_folder_(std::filesystem::exists(folder_)),
+      folder_(piece_file(out_, 0).parent_path() / ".new"),
+      has_parent_(std::filesystem::exists(folder_.parent_path())),
       is_root_(is_root) {}
 
 NewPieces::~NewPieces() {
   if (!is_root_) return;
   std::error_code ignored;
-  std::filesystem::remove_all(folder_ / unfinished, ignored);
-  if (!has_folder_) std::filesystem::remove(folder_, ignored);  // if it is empty
+  std::filesystem::remove_all(folder_, ignored);
+  if (!has_parent_) std::filesystem::remove(folder_.parent_path(), ignored);  // if it is empty
 }
 
 std::filesystem::path NewPieces::file(std::size_t piece) const {
-  return folder_ / unfinished / piece_file(out_, piece).filename();
+  return folder_ / piece_file(out_, piece).filename();
 }
 
 void NewPieces::finish(std::size_t n_pieces) const {

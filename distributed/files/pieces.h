@@ -135,7 +135,7 @@ class NewPieces {
 
  private:
   std::filesystem::path out_, folder_;
-  bool has_folder_, is_root_;
+  bool has_parent_, is_root_;
 };
 
 /// Adds the numbers of nodes or elements in the whole mesh as a field with the role GlobalIds.

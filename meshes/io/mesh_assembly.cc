@@ -71,7 +71,7 @@ class LabelParts {
     if (std::any_of(cells.tags.begin(), cells.tags.end(), is_set))
       labels_.cell_tags = std::move(cells.tags);
     labels_.has_plain_cell_ids = !cells.ids.empty() && are_plain(cells.ids);
-    labels_.cell_ids = worth_keeping(std::move(cells.ids));
+    if (!labels_.has_plain_cell_ids) labels_.cell_ids = worth_keeping(std::move(cells.ids));
     labels_.node_ids = worth_keeping(std::move(parts_.node_ids));
     content_.cell_entities = std::move(cells.entities);
     divide_facets();

@@ -5,6 +5,7 @@ import numpy as np
 
 from ..results.rows import read_rows
 from ..results.smoothing import read_provenance
+from ..tables.number_format import MISSING
 from .blocks import table
 from .reference import of_study
 
@@ -46,4 +47,4 @@ def huge(reference):
 
 def shown(number, form):
     """A number of a row as a text; a dash if it is missing."""
-    return f"{float(number):{form}}" if number else "–"
+    return f"{float(number):{form}}" if number else MISSING

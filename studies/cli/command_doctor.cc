@@ -92,7 +92,6 @@ void show_text(const std::string& path, const Examination& seen) {
 
 /// As check(), on all processes of mpirun.
 void check_parts(const DoctorArguments& arguments) {
-  require_file_for_parts(arguments.in);
   if (!arguments.from.empty()) throw InputError("--from is for standard input, '-'; leave it out");
   Examination seen;
   if (examine_pieces(arguments.in, seen))

@@ -338,8 +338,8 @@ std::vector<std::size_t> counts_of(const std::string& text) {
 }
 
 /// Throws InputError if a box has more cells or nodes than can be numbered.
-void require_countable(const std::string& text, const std::vector<std::size_t>& counts,
-                       bool splits) {
+void require_box_size(const std::string& text, const std::vector<std::size_t>& counts,
+                      bool splits) {
   double n_cells = splits ? (counts.size() == 3 ? 6.0 : 2.0) : 1.0, n_nodes = 1.0;
   for (const std::size_t n : counts) {
     n_cells *= static_cast<double>(n);
@@ -441,7 +441,7 @@ void smoothfem_generate_box(const smoothfem::BoxArguments& arguments) {
         .displacement = arguments.displacement,
         .seed = arguments.seed};
     std::copy(counts.begin(), counts.end(), parameters.n.begin());
-    require_countable(arguments.cells, counts, parameters.splits);
+    require_box_size(arguments.cells, counts, parameters.splits);
     if (!(arguments.displacement >= 0.0 && arguments.displacement < 1.0 / 6.0))
       throw InputError("--displacement is " + std::to_string(arguments.displacement) +
                        ", but cells stay valid only from 0 to below 1/6");

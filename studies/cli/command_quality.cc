@@ -296,7 +296,6 @@ void report_quality(QualityArguments arguments) {
       throw InputError(
           "--histogram, --mark, --below, --metrics and --from do not work on a mesh in parts; "
           "leave them out, or use one file without mpirun");
-    require_file_for_parts(arguments.in);
     return report_pieces(arguments.in, arguments.json);
   }
   if (!arguments.histogram.empty()) require_histogram_path(arguments.histogram);

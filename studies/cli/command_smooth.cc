@@ -219,10 +219,7 @@ void smooth_file(SmoothArguments arguments) {
   if (!arguments.fix_rule.empty()) arguments.fix = parse_fixed_nodes_rule(arguments.fix_rule);
   arguments.has_target = !arguments.target.empty();
   if (arguments.in.empty()) throw CLI::RequiredError("in");
-  if (works_in_parts(arguments.out)) {
-    require_file_for_parts(arguments.in);
-    return smooth_pieces(arguments);
-  }
+  if (works_in_parts(arguments.out)) return smooth_pieces(arguments);
   if (!arguments.solution.empty() || arguments.resume)
     throw InputError(
         std::string(arguments.resume ? "--resume" : "--solution") +

@@ -53,10 +53,6 @@ std::unique_ptr<TemporaryFile> file_for_standard_output(const std::string& name,
   return nullptr;
 }
 
-void require_file_for_parts(const std::string& name) {
-  if (name == "-") throw InputError("standard input cannot be read in parts; give a file");
-}
-
 void require_extension(const std::string& out, const std::string& to, const WriteTarget& target) {
   if (!target.extension.empty() && !out.ends_with(target.extension))
     throw InputError("--to " + to + " makes a file '" + target.extension + "', but " + out +

@@ -32,9 +32,6 @@ std::unique_ptr<TemporaryFile> copy_of_standard_input(const std::string& name,
 std::unique_ptr<TemporaryFile> file_for_standard_output(const std::string& name,
                                                         const std::string& format);
 
-/// Throws InputError if a mesh in parts would come from standard input.
-void require_file_for_parts(const std::string& name);
-
 /// Throws InputError if a file's name does not have the extension that --to asks for.
 void require_extension(const std::string& out, const std::string& to, const WriteTarget& target);
 
